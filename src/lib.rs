@@ -1,0 +1,6 @@
+//! Classic ray tracing (Whitted 1980) on microcontrollers.
+#![no_std]
+#![deny(unsafe_code)]
+
+pub mod math;
+pub mod shape;

@@ -1,0 +1,173 @@
+//! From `f64` to [`Fixed`](super::Fixed)'s numbers: `None` for what is out of range or no number.
+
+use super::{Aim, FixedBarycentric, FixedEta, FixedExponent, FixedIntensity, FixedRadius};
+use super::{Unit, Weight};
+use ::fixed::types::I16F16;
+
+const fn round(x: f64) -> f64 {
+    if x < 0.0 { x - 0.5 } else { x + 0.5 }
+}
+
+const fn within(x: f64, low: f64, high: f64) -> bool {
+    x >= low && x <= high
+}
+
+pub(crate) const fn length(x: f64) -> Option<I16F16> {
+    if !within(x, -1024.0, 1024.0) {
+        return None;
+    }
+    Some(I16F16::from_bits(round(x * 65536.0) as i32))
+}
+
+pub(crate) const fn unit(x: f64) -> Option<Unit> {
+    if !within(x, -1.0001, 1.0001) {
+        return None;
+    }
+    Some(Unit::from_bits(round(x * 131072.0) as i32))
+}
+
+pub(crate) const fn weight(x: f64) -> Option<Weight> {
+    if !within(x, 0.0, 15.999) {
+        return None;
+    }
+    Some(Weight::from_bits(round(x * 16384.0) as i32))
+}
+
+pub(crate) const fn radiance(x: f64) -> Option<I16F16> {
+    if !within(x, 0.0, 1024.0) {
+        return None;
+    }
+    Some(I16F16::from_bits(round(x * 65536.0) as i32))
+}
+
+/// From 2⁻¹² (below it a sphere is a few steps across) to 1024.
+pub(crate) const fn radius(r: f64) -> Option<FixedRadius> {
+    if !within(r, 1.0 / 4096.0, 1024.0) {
+        return None;
+    }
+    let mut mantissa = r * 65536.0;
+    let (mut shift, mut missing) = (0, 0);
+    while mantissa >= 65534.5 {
+        mantissa *= 0.5;
+        shift += 1;
+    }
+    let mut normal = mantissa;
+    while normal < 32768.0 {
+        normal *= 2.0;
+        missing += 1;
+    }
+    let reciprocal = round(4294967296.0 / normal) - 65536.0;
+    Some(FixedRadius {
+        mantissa: round(mantissa) as u16,
+        reciprocal: if reciprocal > 65535.0 { 65535 } else { reciprocal as u16 },
+        shift,
+        missing,
+    })
+}
+
+pub(crate) const fn intensity(x: f64) -> Option<FixedIntensity> {
+    if !within(x, 0.0, 1e12) {
+        return None;
+    }
+    if x < 1e-9 {
+        return Some(FixedIntensity { mantissa_q15: 0, exponent: 0 });
+    }
+    let (mut mantissa, mut exponent) = (x, 0);
+    while mantissa >= 32767.5 / 32768.0 {
+        mantissa *= 0.5;
+        exponent += 1;
+    }
+    while mantissa < 0.5 {
+        mantissa *= 2.0;
+        exponent -= 1;
+    }
+    Some(FixedIntensity { mantissa_q15: round(mantissa * 32768.0) as u16, exponent })
+}
+
+pub(crate) const fn exponent(n: f64) -> Option<FixedExponent> {
+    if !within(n, 0.0, 1e6) {
+        return None;
+    }
+    Some(FixedExponent(round(n * 256.0) as u32))
+}
+
+pub(crate) const fn eta(x: f64) -> Option<FixedEta> {
+    if !within(x, 0.25, 3.999) {
+        return None;
+    }
+    let mut square = x * x;
+    let mut exponent = 0;
+    while square >= 65535.5 / 65536.0 {
+        square *= 0.5;
+        exponent += 1;
+    }
+    while square < 0.5 {
+        square *= 2.0;
+        exponent -= 1;
+    }
+    Some(FixedEta {
+        eta_q16: round(x * 65536.0) as u32,
+        square: round(square * 65536.0) as u16,
+        exponent,
+    })
+}
+
+pub(crate) const fn aim(x: f64) -> Option<Aim> {
+    if !within(x, -16.0, 16.0) {
+        return None;
+    }
+    Some(Aim::from_bits(round(x * 67108864.0) as i32))
+}
+
+const fn abs(x: f64) -> f64 {
+    if x < 0.0 { -x } else { x }
+}
+
+const fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// A form `p·x + q·y` that is 1 at its corner, x and y in 2^(`shift` − 16): brought to
+/// coefficients of fifteen bits.
+const fn form(p: f64, q: f64, shift: u8) -> ([i16; 2], u8) {
+    let step = (1u64 << shift) as f64 / 65536.0;
+    let (p, q) = (p * step, q * step);
+    // 1 stands at 14 + down fraction bits
+    let mut scale = 16384.0;
+    let mut down = 0;
+    let largest = max(abs(p), abs(q));
+    while largest * scale * 2.0 <= 16384.0 && down < 16 {
+        scale *= 2.0;
+        down += 1;
+    }
+    ([clip(p * scale), clip(q * scale)], down)
+}
+
+const fn clip(x: f64) -> i16 {
+    round(if x > 16384.0 {
+        16384.0
+    } else if x < -16384.0 {
+        -16384.0
+    } else {
+        x
+    }) as i16
+}
+
+/// From the triangle's second and third corner relative to the first, along the plane's two
+/// other axes. `None` where the corners lie on a line or the triangle is larger than the range.
+pub(crate) const fn barycentric(b: [f64; 2], c: [f64; 2]) -> Option<FixedBarycentric> {
+    let det = b[0] * c[1] - b[1] * c[0];
+    let largest = max(max(abs(b[0]), abs(b[1])), max(abs(c[0]), abs(c[1])));
+    // A twist of less than 2⁻¹⁴ has no inside at this precision.
+    if !(abs(det) > largest * largest / 65536.0) || !(largest <= 2048.0) {
+        return None;
+    }
+    let mut shift = 0;
+    // One bit to spare: a hit just outside must not wrap into the inside.
+    while largest * 65536.0 >= 32000.0 * (1u64 << shift) as f64 {
+        shift += 1;
+    }
+    let (second, second_down) = form(c[1] / det, -c[0] / det, shift);
+    let (third, third_down) = form(-b[1] / det, b[0] / det, shift);
+    Some(FixedBarycentric { second, third, second_down, third_down, shift })
+}

@@ -1,0 +1,109 @@
+//! Products that are wider than a word, from products that are not.
+
+/// `t·u / 2¹⁷`, exactly the 64-bit result, for |t·u| < 2⁴⁴ and |u| ≤ 2¹⁸.
+#[inline(always)]
+pub(super) fn length_times_unit(t: i32, u: i32) -> i32 {
+    if cfg!(narrow_multiply) {
+        length_times_unit_narrow(t, u)
+    } else {
+        length_times_unit_wide(t, u)
+    }
+}
+
+#[inline(always)]
+fn length_times_unit_wide(t: i32, u: i32) -> i32 {
+    ((i64::from(t) * i64::from(u)) >> 17) as i32
+}
+
+/// Splitting at 13 bits rather than at 16 makes two products do: both parts are below 2³¹.
+/// The floor of the sum is that of the whole, since the low part's fraction is kept.
+#[inline(always)]
+fn length_times_unit_narrow(t: i32, u: i32) -> i32 {
+    let high = (t >> 13).wrapping_mul(u);
+    let low = (t & 0x1fff).wrapping_mul(u) >> 13;
+    high.wrapping_add(low) >> 4
+}
+
+/// `Σ vᵢ·dᵢ / 2¹⁷`, exactly the 64-bit result where that is below 2²⁷.
+#[inline(always)]
+pub(super) fn project(v: &[i32; 3], d: &[i32; 3]) -> i32 {
+    if cfg!(narrow_multiply) { project_narrow(v, d) } else { project_wide(v, d) }
+}
+
+#[inline(always)]
+fn project_wide(v: &[i32; 3], d: &[i32; 3]) -> i32 {
+    let p = |i: usize| i64::from(v[i]) * i64::from(d[i]);
+    ((p(0) + p(1) + p(2)) >> 17) as i32
+}
+
+#[inline(always)]
+fn project_narrow(v: &[i32; 3], d: &[i32; 3]) -> i32 {
+    let high = |i: usize| (v[i] >> 13).wrapping_mul(d[i]);
+    let low = |i: usize| (v[i] & 0x1fff).wrapping_mul(d[i]);
+    let high = high(0).wrapping_add(high(1)).wrapping_add(high(2));
+    // Each low product is below 2³⁰ for |d| ≤ 1, and their sum, by Cauchy's inequality, below
+    // √3·2³⁰ < 2³¹.
+    let low = low(0).wrapping_add(low(1)).wrapping_add(low(2)) >> 13;
+    high.wrapping_add(low) >> 4
+}
+
+/// `x << n`, or `x >> −n` for a negative n; n in −31 to 31.
+#[inline(always)]
+pub(super) fn shift(x: i32, n: i32) -> i32 {
+    if n >= 0 { x << (n & 31) } else { x >> (-n & 31) }
+}
+
+/// `x >> n`, or `x << −n`, for any n, and at most `limit`.
+#[inline(always)]
+pub(super) fn wide_shr(x: u32, n: i32, limit: u32) -> u32 {
+    if n >= 0 {
+        let y = if n > 31 { 0 } else { x >> (n & 31) };
+        if y > limit { limit } else { y }
+    } else {
+        let up = -n;
+        if x == 0 {
+            0
+        } else if up > 31 || x > limit >> (up & 31) {
+            limit
+        } else {
+            x << (up & 31)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    extern crate std;
+
+    proptest! {
+        #[test]
+        fn narrow_products_are_exact(t in -(1i32 << 27)..(1 << 27), u in -(1i32 << 17)..=(1 << 17)) {
+            prop_assert_eq!(length_times_unit_narrow(t, u), length_times_unit_wide(t, u));
+        }
+
+        #[test]
+        fn narrow_products_of_short_lengths_take_units_of_two(
+            t in -(1i32 << 25)..(1 << 25), u in -(1i32 << 18)..=(1 << 18),
+        ) {
+            prop_assert_eq!(length_times_unit_narrow(t, u), length_times_unit_wide(t, u));
+        }
+
+        #[test]
+        fn narrow_projections_are_exact(
+            v in prop::array::uniform3(-(1i32 << 26)..(1 << 26)),
+            d in prop::array::uniform3(-1.0f64..1.0),
+        ) {
+            let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt().max(1e-3);
+            let d = d.map(|x| (x / length * 131072.0) as i32);
+            prop_assert_eq!(project_narrow(&v, &d), project_wide(&v, &d));
+        }
+
+        #[test]
+        fn shifts_saturate(x: u32, n in -64i32..64) {
+            let exact = if n >= 0 { u128::from(x) >> n } else { u128::from(x) << -n };
+            prop_assert_eq!(u128::from(wide_shr(x, n, 1 << 26)), exact.min(1 << 26));
+        }
+    }
+}

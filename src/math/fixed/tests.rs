@@ -1,0 +1,213 @@
+//! Each operation of [`Fixed`] against `f64`, with its error stated.
+use super::{constructors as make, *};
+use proptest::prelude::*;
+extern crate std;
+use std::prelude::v1::*;
+
+const LSB: f64 = 1.0 / 65536.0;
+
+fn len(v: [I16F16; 3]) -> [f64; 3] {
+    v.map(|x| x.to_num())
+}
+
+fn direction_of(v: [f64; 3]) -> ([Unit; 3], [f64; 3]) {
+    let n = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt().max(1e-9);
+    let d = v.map(|x| make::unit(x / n).unwrap());
+    (d, d.map(|x| x.to_num()))
+}
+
+fn lengths_of(v: [f64; 3]) -> [I16F16; 3] {
+    v.map(|x| make::length(x).unwrap())
+}
+
+fn any(range: f64) -> impl Strategy<Value = [f64; 3]> {
+    prop::array::uniform3(-range..range)
+}
+
+/// A direction that is not null.
+fn toward() -> impl Strategy<Value = [f64; 3]> {
+    any(1.0).prop_filter("a direction", |v| v.iter().map(|x| x * x).sum::<f64>() > 1e-4)
+}
+
+proptest! {
+    #[test]
+    fn along_rounds_once(o in any(500.0), t in 0.0..500.0f64, v in toward()) {
+        let (d, df) = direction_of(v);
+        let t = make::length(t).unwrap();
+        let p = len(Fixed::along(&lengths_of(o), t, &d));
+        for i in 0..3 {
+            let exact = o[i] + t.to_num::<f64>() * df[i];
+            prop_assert!((p[i] - exact).abs() <= 1.6 * LSB);
+        }
+    }
+
+    #[test]
+    fn normalize_to_15_bits(v in any(1000.0), scale in -9i32..=0) {
+        let v = v.map(|x| x * 2f64.powi(scale));
+        let fixed = lengths_of(v);
+        let v = len(fixed);
+        let exact = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        prop_assume!(exact > 0.01);
+        let (u, length, inverse) = Fixed::normalize(&fixed);
+        let bound = 0.5f64.powi(14);
+        prop_assert!((length.to_num::<f64>() - exact).abs() <= exact * bound + 2.0 * LSB);
+        for i in 0..3 {
+            prop_assert!((u[i].to_num::<f64>() - v[i] / exact).abs() < bound);
+        }
+        let e = f64::from(inverse.mantissa_q15) / 32768.0 * 2f64.powi(inverse.exponent);
+        prop_assert!((e * exact - 1.0).abs() < bound);
+    }
+
+    #[test]
+    fn ratio_to_17_bits(a in 0.0..1000.0f64, b in 0.0..1.0f64) {
+        let (a, b) = (make::length(a).unwrap(), make::unit(b).unwrap());
+        let got = Fixed::ratio(a, b);
+        let exact = a.to_num::<f64>() / b.to_num::<f64>();
+        if exact >= 1024.0 || b.to_bits() == 0 {
+            prop_assert!(got >= I16F16::from_num(1023.9));
+        } else {
+            let error = (got.to_num::<f64>() - exact).abs();
+            prop_assert!(error <= exact * 0.5f64.powi(16) + 1.5 * LSB, "{a}/{b}: {got}");
+        }
+    }
+
+    #[test]
+    fn mirrors(v in toward(), w in toward()) {
+        let ((d, df), (n, nf)) = (direction_of(v), direction_of(w));
+        let dn: f64 = (0..3).map(|i| df[i] * nf[i]).sum();
+        let r = Fixed::reflect(&d, &n, Fixed::dot(&d, &n));
+        for i in 0..3 {
+            prop_assert!((r[i].to_num::<f64>() - (df[i] - 2.0 * dn * nf[i])).abs() < 4.0 / 131072.0);
+        }
+    }
+
+    #[test]
+    fn snell(v in toward(), w in toward(), eta in 0.3..3.0f64) {
+        let ((d, df), (n, mut nf)) = (direction_of(v), direction_of(w));
+        let mut dn: f64 = (0..3).map(|i| df[i] * nf[i]).sum();
+        let n = if dn > 0.0 { dn = -dn; nf = nf.map(|x| -x); n.map(|x| -x) } else { n };
+        let cos2 = 1.0 - eta * eta * (1.0 - dn * dn);
+        let cos_i = -Fixed::dot(&d, &n);
+        prop_assume!(cos_i.to_bits() >= 0);
+        match Fixed::refract(&d, &n, cos_i, &make::eta(eta).unwrap()) {
+            None => prop_assert!(cos2 < 1e-3),
+            Some(t) => {
+                prop_assert!(cos2 > -1e-3);
+                // The root's error grows as the angle nears the critical one.
+                let bound = 3e-4 / cos2.max(1e-3).sqrt() * eta;
+                let k = -eta * dn - cos2.max(0.0).sqrt();
+                for i in 0..3 {
+                    let exact = eta * df[i] + k * nf[i];
+                    prop_assert!((t[i].to_num::<f64>() - exact).abs() < bound, "{} {exact}", t[i]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn half_chords(r in 0.01..200.0f64, c in any(300.0), v in toward()) {
+        let (d, df) = direction_of(v);
+        let radius = make::radius(r).unwrap();
+        let r = Fixed::radius(&radius).to_num::<f64>();
+        let c = lengths_of(c);
+        let cf = len(c);
+        let t = Fixed::project(&c, &d);
+        let tf = t.to_num::<f64>();
+        let f2: f64 = (0..3).map(|i| (cf[i] - tf * df[i]).powi(2)).sum();
+        let exact = r * r - f2;
+        let step = r.max(1.0) * 0.5f64.powi(15);
+        match Fixed::leg2(&radius, &c, t, &d) {
+            None => prop_assert!(exact < 6.0 * r * step + 1e-9),
+            Some(q) => {
+                prop_assert!(exact > -6.0 * r * step);
+                let leg = Fixed::leg(&radius, q).to_num::<f64>();
+                prop_assert!((leg * leg - exact).abs() < 12.0 * r * step, "{leg} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn normals_to_15_bits(r in 0.01..1000.0f64, v in toward()) {
+        let radius = make::radius(r).unwrap();
+        let (_, df) = direction_of(v);
+        let p = df.map(|x| I16F16::from_num(x * r));
+        let n = Fixed::over(&radius, &p);
+        for i in 0..3 {
+            let exact = p[i].to_num::<f64>() / r;
+            prop_assert!((n[i].to_num::<f64>() - exact).abs() < 0.5f64.powi(15) + LSB / r);
+        }
+    }
+
+    #[test]
+    fn coarse_never_loses_a_hit(r in 0.01..500.0f64, o in any(500.0), c in any(500.0), v in toward()) {
+        let radius = make::radius(r).unwrap();
+        let (o, center) = (lengths_of(o), lengths_of(c));
+        // half of the rays go for the sphere
+        let aim = [0, 1, 2].map(|i| if v[0] > 0.0 { c[i] - o[i].to_num::<f64>() + v[i] * r } else { v[i] });
+        let (d, _) = direction_of(aim);
+        let rel = [0, 1, 2].map(|i| center[i] - o[i]);
+        let t = Fixed::project(&rel, &d);
+        if let Some(q) = Fixed::leg2(&radius, &rel, t, &d) {
+            let far = t + Fixed::leg(&radius, q);
+            if far > I16F16::ZERO && far < Fixed::FAR {
+                prop_assert!(Fixed::may_hit(&Fixed::coarse(&o, &d), &center, &radius, far));
+            }
+        }
+    }
+
+    #[test]
+    fn corners_and_inside(b in prop::array::uniform2(-50.0..50.0f64), c in prop::array::uniform2(-50.0..50.0f64),
+                          u in -0.5..1.5f64, v in -0.5..1.5f64) {
+        let det = (b[0] * c[1] - b[1] * c[0]).abs();
+        let size = b.iter().chain(&c).fold(0f64, |a, x| a.max(x.abs()));
+        prop_assume!(det > 0.02 * size * size && size > 0.05);
+        let form = make::barycentric(b, c).unwrap();
+        let p = |i: usize| I16F16::from_num(u * b[i] + v * c[i]);
+        let clear = 0.03;
+        let got = Fixed::barycentric(&form, p(0), p(1), I16F16::from_num(5));
+        let margin = u.min(v).min(1.0 - u - v);
+        if margin > clear { prop_assert!(got.is_some()); }
+        if margin < -clear { prop_assert!(got.is_none()); }
+        if let Some((bw, cw)) = got {
+            prop_assert!((bw.to_num::<f64>() - u).abs() < clear / 2.0, "{bw} {u}");
+            prop_assert!((cw.to_num::<f64>() - v).abs() < clear / 2.0);
+        }
+    }
+
+    #[test]
+    fn dimming(r in 0.0..1000.0f64, w in 0.0..15.9f64) {
+        let (r, w) = (make::radiance(r).unwrap(), make::weight(w).unwrap());
+        let exact = r.to_num::<f64>() * w.to_num::<f64>();
+        prop_assert!((Fixed::dim(r, w).to_num::<f64>() - exact).abs() <= 2.0 * LSB);
+    }
+
+    #[test]
+    fn light_falls_off(intensity in 1e-3..1e6f64, distance in 0.05..900.0f64) {
+        let i = make::intensity(intensity).unwrap();
+        let v = lengths_of([distance * 0.6, 0.0, distance * 0.8]);
+        let got = Fixed::falloff(&i, &Fixed::normalize(&v).2).to_num::<f64>();
+        let exact = (intensity / distance / distance).min(1024.0);
+        prop_assert!((got - exact).abs() <= exact * 6e-4 + 2.0 * LSB, "{got} {exact}");
+        let got = Fixed::constant(&i).to_num::<f64>();
+        prop_assert!((got - intensity.min(1024.0)).abs() <= intensity.min(1024.0) * 1e-4 + LSB);
+    }
+
+    #[test]
+    fn cells(x in -500.0..500.0f64, side in 0.05..20.0f64) {
+        let (x, per) = (make::length(x).unwrap(), make::length(1.0 / side).unwrap());
+        let cell = x.to_num::<f64>() * per.to_num::<f64>();
+        prop_assert_eq!(Fixed::odd(x, per), cell.floor().rem_euclid(2.0) == 1.0);
+    }
+
+    #[test]
+    fn spans_to_15_bits(o in 0.0..1.0f64, d in 0.0002..1.0f64, k in 16i8..27) {
+        let side = 2f64.powi(i32::from(k) - 16);
+        let o = I16F16::from_bits((o * side * 65536.0) as i32);
+        let d = make::unit(d).unwrap();
+        let (exit, whole) = Fixed::spans(o, d, k);
+        let exact = (side - o.to_num::<f64>()) / d.to_num::<f64>() / side * 65536.0;
+        prop_assert!((f64::from(exit) - exact).abs() <= exact * 2e-5 + 2.0 / d.to_num::<f64>(), "{exit} {exact}");
+        let exact = 65536.0 / d.to_num::<f64>();
+        prop_assert!((f64::from(whole) - exact).abs() <= exact * 2e-5 + 1.0);
+    }
+}

@@ -1,0 +1,400 @@
+//! Floating point: `f32` for cores with a unit for it, `f64` as the reference on a PC.
+//!
+//! Every operation is the plain formula, in one order, without fused operations, so that all
+//! IEEE targets give the same bits.
+
+use super::{Arithmetic, root};
+
+/// A radius and its reciprocal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatRadius<F> {
+    r: F,
+    reciprocal: F,
+}
+
+/// η_i/η_t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatEta<F>(F);
+
+/// See [`Arithmetic::Barycentric`]: the coefficients of both linear forms, and what each must
+/// allow for every unit that a hit is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatBarycentric<F> {
+    second: [F; 2],
+    third: [F; 2],
+    slack: [F; 2],
+}
+
+macro_rules! float {
+    ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, eps: $eps:literal, slow: $slow:literal) => {
+        impl Arithmetic for $f {
+            type Length = $f;
+            type Unit = $f;
+            type Weight = $f;
+            type Radiance = $f;
+            type Radius = FloatRadius<$f>;
+            type Leg2 = $f;
+            type Inverse = $f;
+            type Intensity = $f;
+            type Exponent = $f;
+            type Eta = FloatEta<$f>;
+            type Barycentric = FloatBarycentric<$f>;
+            type Coarse = ();
+            type Aim = $f;
+            type Span = $f;
+
+            const NAME: &'static str = stringify!($f);
+            const FAR: $f = 1e9;
+            const NO_LENGTH: $f = 0.0;
+            const NO_UNIT: $f = 0.0;
+            const ONE_UNIT: $f = 1.0;
+            const NO_WEIGHT: $f = 0.0;
+            const FULL: $f = 1.0;
+            const BLACK: $f = 0.0;
+
+            #[inline(always)]
+            fn along(o: &[$f; 3], t: $f, d: &[$f; 3]) -> [$f; 3] {
+                [o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]]
+            }
+
+            #[inline(always)]
+            fn scale(t: $f, u: $f) -> $f {
+                t * u
+            }
+
+            #[inline(always)]
+            fn project(v: &[$f; 3], d: &[$f; 3]) -> $f {
+                v[0] * d[0] + v[1] * d[1] + v[2] * d[2]
+            }
+
+            #[inline(always)]
+            fn dot(a: &[$f; 3], b: &[$f; 3]) -> $f {
+                a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+            }
+
+            #[inline(always)]
+            fn product(a: $f, b: $f) -> $f {
+                a * b
+            }
+
+            #[inline(always)]
+            fn cosine(a: &[$f; 3], b: &[$f; 3]) -> $f {
+                Self::dot(a, b)
+            }
+
+            #[inline(always)]
+            fn reflect(d: &[$f; 3], n: &[$f; 3], dn: $f) -> [$f; 3] {
+                let k = 2.0 * dn;
+                [d[0] - k * n[0], d[1] - k * n[1], d[2] - k * n[2]]
+            }
+
+            #[inline(always)]
+            fn refract(d: &[$f; 3], n: &[$f; 3], cos_i: $f, eta: &FloatEta<$f>) -> Option<[$f; 3]> {
+                let e = eta.0;
+                let cos2_t = 1.0 - e * e * (1.0 - cos_i * cos_i);
+                if cos2_t <= 0.0 {
+                    return None;
+                }
+                let k = e * cos_i - $sqrt(cos2_t);
+                Some([e * d[0] + k * n[0], e * d[1] + k * n[1], e * d[2] + k * n[2]])
+            }
+
+            #[inline(always)]
+            fn ratio(a: $f, b: $f) -> $f {
+                if b > 0.0 { a / b } else { Self::FAR }
+            }
+
+            #[inline(always)]
+            fn normalize(v: &[$f; 3]) -> ([$f; 3], $f, $f) {
+                let length = $sqrt(Self::project(v, v));
+                let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+                ([v[0] * inverse, v[1] * inverse, v[2] * inverse], length, inverse)
+            }
+
+            #[inline(always)]
+            fn renormalize(v: &[$f; 3]) -> ([$f; 3], $f) {
+                let (unit, length, _) = Self::normalize(v);
+                (unit, length)
+            }
+
+            #[inline(always)]
+            fn leave(p: &[$f; 3], n: &[$f; 3], t: $f) -> [$f; 3] {
+                // Sixteen times the rounding of the largest number that went into the position.
+                let largest = |a: $f, b: $f| if a > b { a } else { b };
+                let abs = |x: $f| if x < 0.0 { -x } else { x };
+                let size = largest(largest(abs(p[0]), abs(p[1])), largest(abs(p[2]), t));
+                Self::along(p, size * (16.0 * $eps), n)
+            }
+
+            #[inline(always)]
+            fn radius(r: &FloatRadius<$f>) -> $f {
+                r.r
+            }
+
+            #[inline(always)]
+            fn leg2(r: &FloatRadius<$f>, c: &[$f; 3], t: $f, d: &[$f; 3]) -> Option<$f> {
+                let f = [c[0] - t * d[0], c[1] - t * d[1], c[2] - t * d[2]];
+                let leg2 = r.r * r.r - Self::project(&f, &f);
+                if leg2 > 0.0 { Some(leg2) } else { None }
+            }
+
+            #[inline(always)]
+            fn leg(_: &FloatRadius<$f>, leg2: $f) -> $f {
+                $sqrt(leg2)
+            }
+
+            #[inline(always)]
+            fn square(_: &FloatRadius<$f>, a: $f) -> $f {
+                a * a
+            }
+
+            #[inline(always)]
+            fn over(r: &FloatRadius<$f>, v: &[$f; 3]) -> [$f; 3] {
+                [v[0] * r.reciprocal, v[1] * r.reciprocal, v[2] * r.reciprocal]
+            }
+
+            #[inline(always)]
+            fn part(r: &FloatRadius<$f>, a: $f) -> $f {
+                a * r.reciprocal
+            }
+
+            #[inline(always)]
+            fn coarse(_: &[$f; 3], _: &[$f; 3]) {}
+
+            #[inline(always)]
+            fn barycentric(form: &FloatBarycentric<$f>, x: $f, y: $f, t: $f) -> Option<($f, $f)> {
+                let off = t * (8.0 * $eps);
+                let b = form.second[0] * x + form.second[1] * y;
+                let slack_b = off * form.slack[0];
+                if b < -slack_b {
+                    return None;
+                }
+                let c = form.third[0] * x + form.third[1] * y;
+                let slack_c = off * form.slack[1];
+                if c < -slack_c || b + c > 1.0 + (slack_b + slack_c) {
+                    return None;
+                }
+                Some((b, c))
+            }
+
+            #[inline(always)]
+            fn blend(n: &[[$f; 3]; 3], b: $f, c: $f) -> [$f; 3] {
+                let a = 1.0 - b - c;
+                let f = |i: usize| a * n[0][i] + b * n[1][i] + c * n[2][i];
+                Self::renormalize(&[f(0), f(1), f(2)]).0
+            }
+
+            #[inline(always)]
+            fn weight(a: $f, b: $f) -> $f {
+                a * b
+            }
+
+            #[inline(always)]
+            fn weight_of(u: $f) -> $f {
+                u
+            }
+
+            #[inline(always)]
+            fn power(cos: $f, n: &$f) -> $f {
+                // Whole exponents, the usual ones, by squaring: exact to a few steps, quick, and
+                // without libm.
+                let whole = *n as u32;
+                if whole as $f == *n && whole <= 4096 {
+                    let (mut square, mut n, mut power) = (cos, whole, 1.0);
+                    while n != 0 {
+                        if n & 1 != 0 {
+                            power *= square;
+                        }
+                        square *= square;
+                        n >>= 1;
+                    }
+                    power
+                } else {
+                    $pow(cos, *n)
+                }
+            }
+
+            #[inline(always)]
+            fn dim(r: $f, w: $f) -> $f {
+                r * w
+            }
+
+            #[inline(always)]
+            fn gather(a: $f, b: $f) -> $f {
+                a + b
+            }
+
+            #[inline(always)]
+            fn mean(sum: $f, count: u16) -> $f {
+                sum * (1.0 / count as $f)
+            }
+
+            #[inline(always)]
+            fn to_q16(r: $f) -> i32 {
+                // `as` saturates, and takes no number for 0.
+                (r * 65536.0 + 0.5) as i32
+            }
+
+            #[inline(always)]
+            fn falloff(intensity: &$f, inverse: &$f) -> $f {
+                Self::constant(&(*intensity * (*inverse * *inverse)))
+            }
+
+            #[inline(always)]
+            fn constant(intensity: &$f) -> $f {
+                if *intensity > 1024.0 { 1024.0 } else { *intensity }
+            }
+
+            #[inline(always)]
+            fn odd(x: $f, per: $f) -> bool {
+                let cell = x * per;
+                let whole = cell as i32;
+                let floor = whole - ((whole as $f > cell) as i32);
+                floor & 1 != 0
+            }
+
+            #[inline(always)]
+            fn aim(base: $f, step: $f, n: i32, fraction: i32) -> $f {
+                base + step * (n as $f + fraction as $f * (1.0 / 256.0))
+            }
+
+            #[inline(always)]
+            fn aim_over(a: $f, n: u32) -> $f {
+                if n == 0 { a } else { a / n as $f }
+            }
+
+            #[inline(always)]
+            fn sight(v: &[$f; 3]) -> [$f; 3] {
+                Self::normalize(v).0
+            }
+
+            #[inline(always)]
+            fn spans(o: $f, d: $f, log2_side: i8) -> ($f, $f) {
+                let d = if d < $slow { $slow } else { d };
+                let side = Self::side(log2_side);
+                ((side - o) / d, side / d)
+            }
+
+            #[inline(always)]
+            fn span(t: $f, _: i8) -> $f {
+                // The rounding of the quotients behind the spans.
+                t + t * (4.0 * $eps)
+            }
+
+            #[inline(always)]
+            fn half(s: $f) -> $f {
+                s * 0.5
+            }
+
+            #[inline(always)]
+            fn side(log2_side: i8) -> $f {
+                constructors::$constructors::power_of_two(log2_side)
+            }
+        }
+    };
+}
+
+float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, eps: 5.9604645e-8, slow: 9.5367431640625e-7);
+float!(f64, 64, f64, sqrt: libm::sqrt, pow: libm::pow, eps: 1.1102230246251565e-16, slow: 1e-12);
+
+/// From `f64` to a float arithmetic's numbers: `None` for what is out of range or no number.
+mod constructors {
+    macro_rules! constructors {
+        ($f:ident) => {
+            pub(crate) mod $f {
+                use super::super::{FloatBarycentric, FloatEta, FloatRadius};
+
+                const fn within(x: f64, low: f64, high: f64) -> Option<$f> {
+                    if x >= low && x <= high { Some(x as $f) } else { None }
+                }
+
+                pub(crate) const fn length(x: f64) -> Option<$f> {
+                    within(x, -1e8, 1e8)
+                }
+
+                pub(crate) const fn unit(x: f64) -> Option<$f> {
+                    within(x, -1.0001, 1.0001)
+                }
+
+                pub(crate) const fn weight(x: f64) -> Option<$f> {
+                    within(x, 0.0, 15.999)
+                }
+
+                pub(crate) const fn radiance(x: f64) -> Option<$f> {
+                    within(x, 0.0, 1024.0)
+                }
+
+                pub(crate) const fn radius(r: f64) -> Option<FloatRadius<$f>> {
+                    if !(r >= 1e-8 && r <= 1e8) {
+                        return None;
+                    }
+                    Some(FloatRadius { r: r as $f, reciprocal: (1.0 / r) as $f })
+                }
+
+                pub(crate) const fn intensity(x: f64) -> Option<$f> {
+                    within(x, 0.0, 1e12)
+                }
+
+                pub(crate) const fn exponent(n: f64) -> Option<$f> {
+                    within(n, 0.0, 1e6)
+                }
+
+                pub(crate) const fn eta(x: f64) -> Option<FloatEta<$f>> {
+                    if !(x >= 0.25 && x <= 3.999) {
+                        return None;
+                    }
+                    Some(FloatEta(x as $f))
+                }
+
+                pub(crate) const fn aim(x: f64) -> Option<$f> {
+                    within(x, -16.0, 16.0)
+                }
+
+                pub(crate) const fn barycentric(
+                    b: [f64; 2],
+                    c: [f64; 2],
+                ) -> Option<FloatBarycentric<$f>> {
+                    let det = b[0] * c[1] - b[1] * c[0];
+                    let size2 = b[0] * b[0] + b[1] * b[1] + c[0] * c[0] + c[1] * c[1];
+                    let area = if det < 0.0 { -det } else { det };
+                    if !(area > size2 * 1e-7) || !(size2 < 1e16) {
+                        return None;
+                    }
+                    let second = [c[1] / det, -c[0] / det];
+                    let third = [-b[1] / det, b[0] / det];
+                    Some(FloatBarycentric {
+                        second: [second[0] as $f, second[1] as $f],
+                        third: [third[0] as $f, third[1] as $f],
+                        slack: [slack(&second) as $f, slack(&third) as $f],
+                    })
+                }
+
+                const fn slack(form: &[f64; 2]) -> f64 {
+                    let abs = [
+                        if form[0] < 0.0 { -form[0] } else { form[0] },
+                        if form[1] < 0.0 { -form[1] } else { form[1] },
+                    ];
+                    abs[0] + abs[1]
+                }
+
+                /// 2^n
+                pub(crate) const fn power_of_two(n: i8) -> $f {
+                    let mut power = 1.0;
+                    let mut i = 0;
+                    while i < n {
+                        power *= 2.0;
+                        i += 1;
+                    }
+                    while i > n {
+                        power *= 0.5;
+                        i -= 1;
+                    }
+                    power
+                }
+            }
+        };
+    }
+    constructors!(f32);
+    constructors!(f64);
+}
+pub(crate) use constructors::{f32 as f32_constructors, f64 as f64_constructors};

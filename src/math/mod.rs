@@ -1,0 +1,268 @@
+//! Arithmetic: the one trait that every kernel is written over, and its three instances.
+//!
+//! A kernel never multiplies two bare numbers. It asks for an operation whose operands and
+//! result have stated meanings (a length times a component of a unit vector is a length; the
+//! leg of a right triangle comes from its hypotenuse and its other leg), so that an instance
+//! can choose the narrowest operands and the exponents that the operation needs. Floating point
+//! ignores all that; [`Fixed`] lives on it.
+//!
+//! | type | meaning | [`Fixed`] | range |
+//! |---|---|---|---|
+//! | [`Length`](Arithmetic::Length) | a coordinate, a distance | Q16.16 | ±1024 for positions, ±2048 for differences |
+//! | [`Unit`](Arithmetic::Unit) | a component of a unit vector | Q17 | −1 to 1 |
+//! | [`Weight`](Arithmetic::Weight) | a coefficient, a cosine | Q14 | 0 to 16 |
+//! | [`Radiance`](Arithmetic::Radiance) | radiance or irradiance of one channel | Q16.16 | saturates at 1024 a term |
+
+mod constant;
+mod fixed;
+mod float;
+#[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
+mod hardware;
+mod log;
+mod root;
+mod vector;
+
+pub use constant::tan_degrees;
+pub(crate) use constant::{cross as cross_f64, unit_vector as unit_f64};
+pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
+pub use fixed::{FixedInverse, FixedRadius};
+pub use float::{FloatBarycentric, FloatEta, FloatRadius};
+pub use root::sqrt_f32;
+pub use vector::{add, axis_of, largest, neg, rgb, sub};
+
+pub(crate) use fixed::constructors as fixed_constructors;
+pub(crate) use float::{f32_constructors, f64_constructors};
+
+use core::fmt::Debug;
+use core::ops::{Add, Neg, Sub};
+
+/// A triple of channels, red first.
+pub type Rgb<T> = [T; 3];
+
+/// What every number here can do by itself: be added, negated and compared.
+pub trait Number:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Neg<Output = Self>
+    + Send
+    + Sync
+    + 'static
+{
+}
+
+impl<T> Number for T where
+    T: Copy
+        + Debug
+        + Default
+        + PartialEq
+        + PartialOrd
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Neg<Output = T>
+        + Send
+        + Sync
+        + 'static
+{
+}
+
+/// The numbers a scene is traced in: [`Fixed`], `f32` or `f64`.
+///
+/// All operations are total: none panics, whatever the operands, and all are deterministic to
+/// the bit on every target. Where an operation states a range, operands outside it give a wrong
+/// number, not an undefined one.
+pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
+    /// Coordinates and distances.
+    type Length: Number;
+    /// Components of unit vectors.
+    type Unit: Number;
+    /// Coefficients and cosines.
+    type Weight: Number;
+    /// Radiance or irradiance of a channel, irradiance divided by π.
+    type Radiance: Number;
+    /// A radius with what is precomputed from it.
+    type Radius: Copy + Debug + Send + Sync;
+    /// The square of a length no larger than a radius, in that radius' exponent.
+    type Leg2: Copy + PartialOrd;
+    /// The reciprocal of a length.
+    type Inverse: Copy;
+    /// A light's strength, before falloff.
+    type Intensity: Copy + Debug + Send + Sync;
+    /// Phong's exponent.
+    type Exponent: Copy + Debug + Send + Sync;
+    /// The quotient of two indices of refraction.
+    type Eta: Copy + Debug + Send + Sync;
+    /// Two linear forms that give the barycentric coordinates of a point in a triangle's plane.
+    type Barycentric: Copy + Debug + Send + Sync;
+    /// A ray at low precision, for quick rejection.
+    type Coarse: Copy;
+    /// A component of a camera's view vector, not normalised.
+    type Aim: Number;
+    /// A ray parameter within the octree, in units of the tree's side.
+    type Span: Number;
+
+    /// What the `--arith` option and baked files call this arithmetic.
+    const NAME: &'static str;
+    /// A hit at this distance or beyond is a miss.
+    const FAR: Self::Length;
+    /// Zero length.
+    const NO_LENGTH: Self::Length;
+    /// Zero component.
+    const NO_UNIT: Self::Unit;
+    /// One, as a component of a unit vector.
+    const ONE_UNIT: Self::Unit;
+    /// Coefficient 0.
+    const NO_WEIGHT: Self::Weight;
+    /// Coefficient 1.
+    const FULL: Self::Weight;
+    /// Radiance 0.
+    const BLACK: Self::Radiance;
+
+    /// `o + t·d`.
+    fn along(o: &[Self::Length; 3], t: Self::Length, d: &[Self::Unit; 3]) -> [Self::Length; 3];
+    /// `t·u`.
+    fn scale(t: Self::Length, u: Self::Unit) -> Self::Length;
+    /// `v·d`, the length of `v` along `d`.
+    fn project(v: &[Self::Length; 3], d: &[Self::Unit; 3]) -> Self::Length;
+    /// `a·b` of two unit vectors.
+    fn dot(a: &[Self::Unit; 3], b: &[Self::Unit; 3]) -> Self::Unit;
+    /// `a·b` of two components.
+    fn product(a: Self::Unit, b: Self::Unit) -> Self::Unit;
+    /// `a·b` of two unit vectors, to the precision that shading needs.
+    fn cosine(a: &[Self::Unit; 3], b: &[Self::Unit; 3]) -> Self::Weight;
+    /// The mirror image `d − 2(d·n)n` of a direction, given `dn = d·n`.
+    fn reflect(d: &[Self::Unit; 3], n: &[Self::Unit; 3], dn: Self::Unit) -> [Self::Unit; 3];
+    /// Snell's transmitted direction for `n` on the side the ray comes from and
+    /// `cos_i = −d·n ≥ 0`; `None` where reflection is total.
+    fn refract(
+        d: &[Self::Unit; 3],
+        n: &[Self::Unit; 3],
+        cos_i: Self::Unit,
+        eta: &Self::Eta,
+    ) -> Option<[Self::Unit; 3]>;
+    /// `a/b` for `a ≥ 0`, `b ≥ 0`; at least [`FAR`](Self::FAR) where the quotient is larger than
+    /// that or `b` is 0.
+    fn ratio(a: Self::Length, b: Self::Unit) -> Self::Length;
+    /// The unit vector along `v`, its length, and the length's reciprocal. A null vector has no
+    /// direction and gives null.
+    fn normalize(v: &[Self::Length; 3]) -> ([Self::Unit; 3], Self::Length, Self::Inverse);
+    /// The unit vector along `v` and the length of `v`, for vectors no longer than 2 (an
+    /// interpolated normal, a component of a direction).
+    fn renormalize(v: &[Self::Unit; 3]) -> ([Self::Unit; 3], Self::Unit);
+    /// The origin of a ray that leaves the surface at `p`, reached over the distance `t`:
+    /// moved along `n` by what the position may be wrong.
+    fn leave(p: &[Self::Length; 3], n: &[Self::Unit; 3], t: Self::Length) -> [Self::Length; 3];
+
+    /// The radius itself.
+    fn radius(r: &Self::Radius) -> Self::Length;
+    /// `r² − |c − t·d|²` if that is positive: the square of the half chord that a ray cuts from
+    /// a sphere around `c` (relative to the ray's origin), `t = c·d` being where the ray comes
+    /// nearest.
+    fn leg2(
+        r: &Self::Radius,
+        c: &[Self::Length; 3],
+        t: Self::Length,
+        d: &[Self::Unit; 3],
+    ) -> Option<Self::Leg2>;
+    /// The root of a squared leg.
+    fn leg(r: &Self::Radius, leg2: Self::Leg2) -> Self::Length;
+    /// The square of a length whose absolute value is no larger than 2·`r`.
+    fn square(r: &Self::Radius, a: Self::Length) -> Self::Leg2;
+    /// `v/r`, for |v| ≤ r: the normal of a sphere.
+    fn over(r: &Self::Radius, v: &[Self::Length; 3]) -> [Self::Unit; 3];
+    /// `a/r`, for |a| ≤ r.
+    fn part(r: &Self::Radius, a: Self::Length) -> Self::Unit;
+
+    /// A ray at low precision.
+    fn coarse(o: &[Self::Length; 3], d: &[Self::Unit; 3]) -> Self::Coarse;
+    /// Whether the ray may hit the sphere nearer than `limit`: cheap, and never wrong when it
+    /// says no.
+    #[inline(always)]
+    fn may_hit(
+        _ray: &Self::Coarse,
+        _center: &[Self::Length; 3],
+        _r: &Self::Radius,
+        _limit: Self::Length,
+    ) -> bool {
+        true
+    }
+
+    /// The weights of a triangle's second and third corner at the point (x, y) of its plane,
+    /// both relative to its first corner and seen along the plane's dominant axis; `None`
+    /// outside the triangle, which is larger by what a hit over the distance `t` may be wrong.
+    fn barycentric(
+        form: &Self::Barycentric,
+        x: Self::Length,
+        y: Self::Length,
+        t: Self::Length,
+    ) -> Option<(Self::Weight, Self::Weight)>;
+    /// `(1 − b − c)·n[0] + b·n[1] + c·n[2]`, normalised.
+    fn blend(n: &[[Self::Unit; 3]; 3], b: Self::Weight, c: Self::Weight) -> [Self::Unit; 3];
+
+    /// `a·b` of coefficients, the product no larger than 16.
+    fn weight(a: Self::Weight, b: Self::Weight) -> Self::Weight;
+    /// A component of a unit vector as a coefficient.
+    fn weight_of(u: Self::Unit) -> Self::Weight;
+    /// `cos^n` for a cosine in 0 to 1.
+    fn power(cos: Self::Weight, n: &Self::Exponent) -> Self::Weight;
+    /// `r·w`.
+    fn dim(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
+    /// `a + b`, saturating.
+    fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
+    /// The mean of `count` radiances that sum to `sum`.
+    fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;
+    /// The radiance as a number of 1/65536, saturating: what the tone curve reads.
+    fn to_q16(r: Self::Radiance) -> i32;
+    /// Intensity times the square of an inverse length, saturating at 1024.
+    fn falloff(intensity: &Self::Intensity, inverse: &Self::Inverse) -> Self::Radiance;
+    /// Intensity without falloff.
+    fn constant(intensity: &Self::Intensity) -> Self::Radiance;
+    /// `floor(x·per)` modulo 2: which cell of a pattern a coordinate lies in.
+    fn odd(x: Self::Length, per: Self::Length) -> bool;
+
+    /// `base + step·(n + fraction/256)`, `fraction` in 0 to 255.
+    fn aim(base: Self::Aim, step: Self::Aim, n: i32, fraction: i32) -> Self::Aim;
+    /// `a/n`; `a` for n = 0.
+    fn aim_over(a: Self::Aim, n: u32) -> Self::Aim;
+    /// The unit vector along a camera's view vector.
+    fn sight(v: &[Self::Aim; 3]) -> [Self::Unit; 3];
+
+    /// For one axis of an octree of side 2^`log2_side` (in [`Self::Length`]'s smallest step for
+    /// [`Fixed`], in units otherwise): the ray parameter at the far face and that of crossing
+    /// the whole side, for a ray at `o` within the cube (0 to side) going towards larger
+    /// coordinates with the speed `d ≥ 0`.
+    fn spans(o: Self::Length, d: Self::Unit, log2_side: i8) -> (Self::Span, Self::Span);
+    /// A distance in the tree's unit, rounded up so that an end is never early.
+    fn span(t: Self::Length, log2_side: i8) -> Self::Span;
+    /// Half of a span.
+    fn half(s: Self::Span) -> Self::Span;
+    /// The side of a tree, 2^`log2_side`.
+    fn side(log2_side: i8) -> Self::Length;
+}
+
+/// Writes the items once for each arithmetic: within them `A` is the arithmetic, `make` the
+/// module that takes its numbers from `f64` (const fns; a const fn can't call trait methods).
+macro_rules! for_each_arithmetic {
+    ($($items:tt)*) => {
+        const _: () = {
+            type A = $crate::math::Fixed;
+            use $crate::math::fixed_constructors as make;
+            $($items)*
+        };
+        const _: () = {
+            type A = f32;
+            use $crate::math::f32_constructors as make;
+            $($items)*
+        };
+        const _: () = {
+            type A = f64;
+            use $crate::math::f64_constructors as make;
+            $($items)*
+        };
+    };
+}
+pub(crate) use for_each_arithmetic;

@@ -1,0 +1,142 @@
+//! The primitives, a file each: what they are, how a ray meets them, where they lie.
+//!
+//! A shape is first asked *whether* and *where* a ray meets it ([`Shape::nearest`],
+//! [`Shape::occludes`]); only the nearest one is asked for its normal ([`Shape::surface`]).
+//!
+//! **Rays that leave a surface don't hit it again**, by construction rather than by a small
+//! distance: a ray knows the shape it leaves and the side it leaves on. A flat shape it leaves is
+//! not tested; nor is a convex one (sphere, box, cylinder, cone) left outwards; left inwards, a
+//! convex shape is tested for its far root alone.
+
+mod error;
+mod plane;
+mod sphere;
+
+pub use error::ShapeError;
+pub(crate) use error::{ok_or_panic, point, some_or, unit_vector};
+pub use plane::Plane;
+pub use sphere::Sphere;
+
+use crate::math::Arithmetic;
+
+/// A half-line, and which shape it leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray<A: Arithmetic> {
+    /// Where it starts.
+    pub origin: [A::Length; 3],
+    /// Where it goes, a unit vector.
+    pub direction: [A::Unit; 3],
+    /// The shape on whose surface it starts.
+    pub leaving: Leaving,
+}
+
+/// The shape on whose surface a ray starts, and the side it starts towards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leaving {
+    /// The shape's number in the scene.
+    pub shape: u32,
+    /// Whether the ray goes into the shape.
+    pub inwards: bool,
+}
+
+impl Leaving {
+    /// A ray that starts in free space.
+    pub const NOTHING: Self = Self { shape: u32::MAX, inwards: false };
+}
+
+/// Where a ray meets a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting<A: Arithmetic> {
+    /// The distance from the ray's origin.
+    pub distance: A::Length,
+    /// What the shape's [`surface`](Shape::surface) wants to know of the test: for a sphere or a
+    /// cylinder the half chord, negative at the near root.
+    pub detail: A::Length,
+}
+
+/// The surface at a point, seen from where the ray came.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface<A: Arithmetic> {
+    /// The geometric unit normal, turned to the side the ray came from.
+    pub geometric: [A::Unit; 3],
+    /// The unit normal that shading sees, on the same side: the geometric one, or the
+    /// interpolated one of a smooth triangle.
+    pub normal: [A::Unit; 3],
+    /// The cosine between `normal` and the way back along the ray, not negative.
+    pub cosine: A::Unit,
+    /// Whether the ray came from behind: from inside a closed shape, from the side that a flat
+    /// shape's normal doesn't point to.
+    pub behind: bool,
+}
+
+/// What tracing asks of every primitive.
+pub trait Shape<A: Arithmetic> {
+    /// Flat shapes are met once by any ray, so one that leaves them need not test them.
+    const FLAT: bool;
+
+    /// The nearest point in front of the ray's origin and nearer than `limit` or exactly there
+    /// (the caller decides ties). `inwards`: the ray starts on this shape and goes into it.
+    fn nearest(
+        &self,
+        ray: &Ray<A>,
+        coarse: &A::Coarse,
+        inwards: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>>;
+
+    /// Whether anything of the shape lies in front of the ray's origin and nearer than `limit`.
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<A>, coarse: &A::Coarse, inwards: bool, limit: A::Length) -> bool {
+        match self.nearest(ray, coarse, inwards, limit) {
+            Some(meeting) => meeting.distance < limit,
+            None => false,
+        }
+    }
+
+    /// The surface at the point `p` where the ray met the shape.
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A>;
+
+    /// The material's number, and whether the shape shows its inside only.
+    fn material(&self) -> MaterialId;
+}
+
+/// Which of the scene's materials a shape has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MaterialId(u16);
+
+impl MaterialId {
+    const INSIDE_ONLY: u16 = 0x8000;
+    /// One more than the largest index.
+    pub const LIMIT: u16 = Self::INSIDE_ONLY;
+
+    /// The material of this index, below [`LIMIT`](Self::LIMIT) (the highest bit is dropped).
+    #[inline(always)]
+    pub const fn new(index: u16) -> Self {
+        Self(index & !Self::INSIDE_ONLY)
+    }
+
+    /// The index into the scene's materials.
+    #[inline(always)]
+    pub const fn index(self) -> usize {
+        (self.0 & !Self::INSIDE_ONLY) as usize
+    }
+
+    /// Whether only the inside of the shape shows (a negative radius in NFF).
+    #[inline(always)]
+    pub const fn inside_only(self) -> bool {
+        self.0 & Self::INSIDE_ONLY != 0
+    }
+
+    pub(crate) const fn showing_inside(self) -> Self {
+        Self(self.0 | Self::INSIDE_ONLY)
+    }
+}
+
+/// The surface with one normal, given as it points out of the shape (or out of its front), and
+/// `dn` its product with the direction.
+#[inline(always)]
+pub(crate) fn turned<A: Arithmetic>(outward: &[A::Unit; 3], dn: A::Unit) -> Surface<A> {
+    let behind = dn > A::NO_UNIT;
+    let normal = if behind { crate::math::neg(outward) } else { *outward };
+    Surface { geometric: normal, normal, cosine: if behind { dn } else { -dn }, behind }
+}

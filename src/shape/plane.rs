@@ -1,0 +1,150 @@
+//! Infinite plane.
+//!
+//! n·p = offset. With h the height of the ray's origin over the plane and c = d·n, the ray meets
+//! it at −h/c, if h and c have opposite signs. A plane across an axis needs no products: the
+//! height is a difference of two numbers and the cosine a component of the direction.
+
+use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
+use super::{ok_or_panic, some_or, turned};
+use crate::math::{Arithmetic, axis_of, for_each_arithmetic, unit_f64};
+
+/// An infinite plane. It lies outside the octree; its front is where the normal points.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane<A: Arithmetic> {
+    normal: [A::Unit; 3],
+    /// n·p of its points.
+    offset: A::Length,
+    material: MaterialId,
+    /// 0 to 2: the normal is this axis, in positive direction; 3: any.
+    axis: u8,
+}
+
+for_each_arithmetic! {
+    impl Plane<A> {
+        /// The plane n·p = `offset`, for scenes in `const`s.
+        ///
+        /// # Panics
+        /// Where [`try_new`](Self::try_new) has an error.
+        pub const fn new(normal: [f64; 3], offset: f64, material: u16) -> Self {
+            ok_or_panic!(Self::try_new(normal, offset, material))
+        }
+
+        /// The plane n·p = `offset`, n being the unit vector along `normal`.
+        ///
+        /// # Errors
+        /// A null normal; an offset out of range.
+        pub const fn try_new(
+            normal: [f64; 3],
+            offset: f64,
+            material: u16,
+        ) -> Result<Self, ShapeError> {
+            if material >= MaterialId::LIMIT {
+                return Err(ShapeError::Material);
+            }
+            let n = some_or!(unit_f64(normal), Direction);
+            let mut axis = 3;
+            let mut i = 0;
+            while i < 3 {
+                if n[i] == 1.0 {
+                    axis = i as u8;
+                }
+                i += 1;
+            }
+            Ok(Self {
+                normal: [
+                    some_or!(make::unit(n[0]), Direction),
+                    some_or!(make::unit(n[1]), Direction),
+                    some_or!(make::unit(n[2]), Direction),
+                ],
+                offset: some_or!(make::length(offset), Coordinate),
+                material: MaterialId::new(material),
+                axis,
+            })
+        }
+    }
+}
+
+impl<A: Arithmetic> Shape<A> for Plane<A> {
+    const FLAT: bool = true;
+
+    #[inline(always)]
+    fn nearest(
+        &self,
+        ray: &Ray<A>,
+        _: &A::Coarse,
+        _: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        let (height, slope) = if self.axis < 3 {
+            (axis_of(&ray.origin, self.axis), axis_of(&ray.direction, self.axis))
+        } else {
+            (A::project(&ray.origin, &self.normal), A::dot(&ray.direction, &self.normal))
+        };
+        let height = height - self.offset;
+        let distance = if height > A::NO_LENGTH {
+            if slope >= A::NO_UNIT {
+                return None;
+            }
+            A::ratio(height, -slope)
+        } else {
+            if slope <= A::NO_UNIT {
+                return None;
+            }
+            A::ratio(-height, slope)
+        };
+        if distance > A::NO_LENGTH && distance <= limit {
+            Some(Meeting { distance, detail: A::NO_LENGTH })
+        } else {
+            None
+        }
+    }
+
+    #[inline(always)]
+    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &[A::Length; 3]) -> Surface<A> {
+        let dn = if self.axis < 3 {
+            axis_of(&ray.direction, self.axis)
+        } else {
+            A::dot(&ray.direction, &self.normal)
+        };
+        turned(&self.normal, dn)
+    }
+
+    #[inline(always)]
+    fn material(&self) -> MaterialId {
+        self.material
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Fixed;
+    use crate::shape::Leaving;
+
+    #[test]
+    fn floor_and_slope() {
+        let ray = |o, d| Ray::<f64> { origin: o, direction: d, leaving: Leaving::NOTHING };
+        let floor = Plane::<f64>::new([0.0, 2.0, 0.0], -1.0, 0);
+        let at = |p: &Plane<f64>, o, d| p.nearest(&ray(o, d), &(), false, 1e9).map(|m| m.distance);
+        assert_eq!(at(&floor, [3.0, 1.0, 0.0], [0.0, -1.0, 0.0]), Some(2.0));
+        assert_eq!(at(&floor, [3.0, 1.0, 0.0], [0.0, 1.0, 0.0]), None);
+        assert_eq!(at(&floor, [3.0, -3.0, 0.0], [0.0, 1.0, 0.0]), Some(2.0));
+        let slope = Plane::<f64>::new([0.6, 0.8, 0.0], 1.0, 0);
+        assert!((at(&slope, [0.0; 3], [0.6, 0.8, 0.0]).unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_horizon_is_a_miss() {
+        let floor = Plane::<Fixed>::new([0.0, 1.0, 0.0], 0.0, 0);
+        let unit = |x: f64| fixed::FixedI32::from_num(x);
+        let num = |x: f64| fixed::types::I16F16::from_num(x);
+        let ray = Ray::<Fixed> {
+            origin: [num(0.0), num(2.0), num(0.0)],
+            direction: [unit(0.0), unit(-0.00001), unit(1.0)],
+            leaving: Leaving::NOTHING,
+        };
+        let coarse = Fixed::coarse(&ray.origin, &ray.direction);
+        let hit = floor.nearest(&ray, &coarse, false, Fixed::FAR);
+        assert!(hit.is_none_or(|m| m.distance >= Fixed::FAR));
+    }
+}
