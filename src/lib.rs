@@ -3,4 +3,5 @@
 #![deny(unsafe_code)]
 
 pub mod math;
+pub mod octree;
 pub mod shape;

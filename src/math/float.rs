@@ -377,6 +377,21 @@ mod constructors {
                     abs[0] + abs[1]
                 }
 
+                /// A coordinate in steps of 2^`log2_step`, rounded to nearest.
+                pub(crate) const fn to_grid(x: $f, log2_step: i8) -> i32 {
+                    let y = x as f64 / f64_power_of_two(log2_step);
+                    (if y < 0.0 { y - 0.5 } else { y + 0.5 }) as i32
+                }
+
+                /// The coordinate of a step of the grid.
+                pub(crate) const fn from_grid(x: i32, log2_step: i8) -> $f {
+                    (x as f64 * f64_power_of_two(log2_step)) as $f
+                }
+
+                const fn f64_power_of_two(n: i8) -> f64 {
+                    f64::from_bits(((1023 + n as i64) as u64) << 52)
+                }
+
                 /// 2^n
                 pub(crate) const fn power_of_two(n: i8) -> $f {
                     let mut power = 1.0;

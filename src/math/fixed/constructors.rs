@@ -171,3 +171,13 @@ pub(crate) const fn barycentric(b: [f64; 2], c: [f64; 2]) -> Option<FixedBarycen
     let (third, third_down) = form(-b[1] / det, b[0] / det, shift);
     Some(FixedBarycentric { second, third, second_down, third_down, shift })
 }
+
+/// A coordinate in steps of the octree's grid, which for fixed point are its own steps.
+pub(crate) const fn to_grid(x: I16F16, _log2_step: i8) -> i32 {
+    x.to_bits()
+}
+
+/// The coordinate of a step of the grid.
+pub(crate) const fn from_grid(x: i32, _log2_step: i8) -> I16F16 {
+    I16F16::from_bits(x)
+}

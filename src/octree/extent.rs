@@ -1,0 +1,28 @@
+//! Where a shape lies, in whole numbers: what the builder, a const fn, can compute with.
+//!
+//! The numbers are in steps of a grid: 2⁻¹⁶ for fixed point, whose coordinates they are; for
+//! floating point a power of two chosen so that the scene spans about 2²⁶ steps.
+
+/// Where a shape lies, in steps of the grid; rounded to nearest, so the builder adds a margin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Anywhere within a box.
+    Box {
+        /// The smallest coordinates.
+        min: [i32; 3],
+        /// The largest coordinates.
+        max: [i32; 3],
+    },
+    /// On a sphere.
+    Sphere {
+        /// The centre.
+        center: [i32; 3],
+        /// The radius.
+        radius: i32,
+    },
+    /// Within a triangle.
+    Triangle {
+        /// The corners.
+        corners: [[i32; 3]; 3],
+    },
+}
