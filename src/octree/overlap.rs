@@ -11,7 +11,7 @@
 use super::Extent;
 
 /// A cell about to be cut: the octants have the side `half`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub(super) min: [i32; 3],
     pub(super) half: i32,
