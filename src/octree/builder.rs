@@ -13,7 +13,7 @@
 //! of a small sphere and the rounding of an extent add a few steps: 8.
 
 use super::Extent;
-use super::node::{self, IdWidth, MAX_LEVELS};
+use super::node::{self, IdWidth, MAX_LEVELS, ROOM};
 use super::overlap::{Cell, bounds};
 use core::fmt;
 
@@ -210,17 +210,28 @@ struct Parent {
 
 const ID: u32 = (1 << 24) - 1;
 
+/// Sets a word, if it is there.
+const fn set(words: &mut [u32], index: usize, word: u32) {
+    if index < words.len() {
+        words[index] = word;
+    }
+}
+
+const fn octants(cell: &Cell, extents: &[Extent], id: u32) -> u32 {
+    if (id as usize) < extents.len() { cell.octants(&extents[id as usize]) as u32 } else { 0 }
+}
+
 /// Notes beside each id the octants it meets, and decides whether to cut the cell: its children,
 /// or 0.
 const fn cut(extents: &[Extent], scratch: &mut [u32], list: List, cell: &Cell) -> u32 {
     let (mut children, mut entries) = (0, 0);
     let mut i = list.start;
     while i < list.end {
-        let id = scratch[i] & ID;
-        let octants = cell.octants(&extents[id as usize]) as u32;
+        let id = node::word(scratch, i) & ID;
+        let octants = octants(cell, extents, id);
         children |= octants;
         entries += node::population(octants) as usize;
-        scratch[i] = octants << 24 | id;
+        set(scratch, i, octants << 24 | id);
         i += 1;
     }
     let whole = (list.end - list.start) * TEST_COST;
@@ -240,7 +251,7 @@ const fn write_leaf(
     let mut left = list.end - list.start;
     let inline = left <= width.per_word();
     if !inline {
-        words[slot] = node::leaf_of_run(used);
+        set(words, slot, node::leaf_of_run(used));
     }
     let mut next = list.start;
     while left > 0 {
@@ -249,17 +260,17 @@ const fn write_leaf(
         let mut word = width.empty(left > 0);
         let mut i = 0;
         while i < count {
-            word = width.with(word, i, ids[next] & ID);
+            word = width.with(word, i, node::word(ids, next) & ID);
             next += 1;
             i += 1;
         }
         if inline {
-            words[slot] = word;
+            set(words, slot, word);
         } else {
             if used >= words.len() {
                 return Err(BuildError::Words);
             }
-            words[used] = word;
+            set(words, used, word);
             used += 1;
         }
     }
@@ -296,7 +307,7 @@ pub const fn build_into(
     }
     let mut list = List { start: 0, end: extents.len() };
     while list.start < list.end {
-        scratch[list.start] = list.start as u32;
+        set(scratch, list.start, list.start as u32);
         list.start += 1;
     }
     list.start = 0;
@@ -305,7 +316,7 @@ pub const fn build_into(
         if limits.levels as usize > MAX_LEVELS { MAX_LEVELS } else { limits.levels as usize };
     let margin = margin(cube.log2_side, limits.precision);
     let nobody = Parent { min: cube.origin, list, children: 0, next: 0, slot: 0 };
-    let mut parents = [nobody; MAX_LEVELS];
+    let mut parents = [nobody; ROOM];
     let (mut min, mut level, mut slot, mut used) = (cube.origin, 0, 0, 1);
     loop {
         let half = 1 << (cube.log2_side as usize - level - 1);
@@ -320,11 +331,9 @@ pub const fn build_into(
             if used > words.len() {
                 return Err(BuildError::Words);
             }
-            words[slot] = match node::inner(children, row) {
-                Some(word) => word,
-                None => return Err(BuildError::Words),
-            };
-            parents[level] = Parent { min, list, children, next: 0, slot: row };
+            let Some(word) = node::inner(children, row) else { return Err(BuildError::Words) };
+            set(words, slot, word);
+            parents[level % ROOM] = Parent { min, list, children, next: 0, slot: row };
             level += 1;
             if level > built.levels as usize {
                 built.levels = level as u8;
@@ -341,7 +350,7 @@ pub const fn build_into(
                 built.words = used;
                 return Ok(built);
             }
-            let parent = &mut parents[level - 1];
+            let parent = &mut parents[(level - 1) % ROOM];
             let octant = parent.next;
             if parent.children >> octant == 0 {
                 level -= 1;
@@ -352,7 +361,7 @@ pub const fn build_into(
                 break octant;
             }
         };
-        let parent = &mut parents[level - 1];
+        let parent = &mut parents[(level - 1) % ROOM];
         slot = parent.slot;
         parent.slot += 1;
         min = parent.min;
@@ -365,11 +374,12 @@ pub const fn build_into(
         list = List { start: parent.list.end, end: parent.list.end };
         let mut i = parent.list.start;
         while i < parent.list.end {
-            if scratch[i] >> 24 >> octant & 1 != 0 {
+            let entry = node::word(scratch, i);
+            if entry >> 24 >> octant & 1 != 0 {
                 if list.end >= scratch.len() {
                     return Err(BuildError::Scratch);
                 }
-                scratch[list.end] = scratch[i] & ID;
+                set(scratch, list.end, entry & ID);
                 list.end += 1;
             }
             i += 1;

@@ -31,6 +31,10 @@ const MORE: u32 = 1 << 30;
 const INDEX_BITS: u32 = 23;
 const IDS: u32 = MORE - 1;
 
+/// Room for all levels, a power of two: a masked index needs no check.
+pub(super) const ROOM: usize = 16;
+
+const _: () = assert!(MAX_LEVELS < ROOM);
 const _: () = assert!(INDEX_BITS + 8 == 31);
 const _: () = assert!(MAX_ID_BITS <= 24);
 
@@ -103,6 +107,12 @@ pub(super) const fn continues(word: u32) -> bool {
     word & MORE != 0
 }
 
+/// A word, or 0 beyond the end: no panic is left in the program.
+#[inline(always)]
+pub(super) const fn word(words: &[u32], index: usize) -> u32 {
+    if index < words.len() { words[index] } else { 0 }
+}
+
 /// How wide a scene's ids are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct IdWidth {
@@ -125,7 +135,10 @@ impl IdWidth {
 
     /// How many ids a word holds.
     pub(super) const fn per_word(self) -> usize {
-        (30 / self.bits) as usize
+        match 30u32.checked_div(self.bits) {
+            Some(count) => count as usize,
+            None => 1,
+        }
     }
 
     /// A leaf without ids, or a run's word.
@@ -237,21 +250,22 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
         return if shapes == 0 { Ok(0) } else { Err(TreeError::Length) };
     }
     // For each level the next word of the row, and its end.
-    let mut next = [0; MAX_LEVELS + 1];
-    let mut end = [0; MAX_LEVELS + 1];
+    let mut next = [0; ROOM];
+    let mut end = [0; ROOM];
     let (mut level, mut deepest) = (0, 0);
     end[0] = 1;
     let mut used = 1;
     loop {
-        if next[level] == end[level] {
+        let current = level % ROOM;
+        if next[current] == end[current] {
             if level == 0 {
                 break;
             }
             level -= 1;
             continue;
         }
-        let word = words[next[level]];
-        next[level] += 1;
+        let word = self::word(words, next[current]);
+        next[current] += 1;
         if !is_leaf(word) {
             let (start, length) = (first(word), population(children(word)) as usize);
             if length == 0 {
@@ -268,8 +282,8 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
             }
             used += length;
             level += 1;
-            next[level] = start;
-            end[level] = used;
+            next[level % ROOM] = start;
+            end[level % ROOM] = used;
             if level > deepest {
                 deepest = level;
             }
@@ -282,7 +296,7 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
                 if used == words.len() {
                     return Err(TreeError::Truncated);
                 }
-                let word = words[used];
+                let word = self::word(words, used);
                 if !is_leaf(word) || !check_ids(width, word, shapes) {
                     return Err(TreeError::Id);
                 }
