@@ -440,6 +440,9 @@ impl<const WORDS: usize> OctreeBuffer<WORDS> {
 
     /// The tree's words.
     pub const fn words(&self) -> &[u32] {
-        self.words.split_at(self.built.words).0
+        match self.words.split_at_checked(self.built.words) {
+            Some((words, _)) => words,
+            None => &[],
+        }
     }
 }

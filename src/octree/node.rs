@@ -125,7 +125,7 @@ impl IdWidth {
     pub(super) const fn of(shapes: usize) -> Option<Self> {
         let mut bits = 1;
         while bits <= MAX_ID_BITS {
-            if (1 << bits) - 1 >= shapes {
+            if (1 << bits) > shapes {
                 return Some(Self { bits, mask: (1 << bits) - 1 });
             }
             bits += 1;

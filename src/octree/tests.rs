@@ -73,10 +73,10 @@ impl<A: Arithmetic> Visitor<A> for Nearest<'_, A> {
     fn visit(&mut self, id: u32) -> bool {
         self.tests += 1;
         let shape = &self.shapes[id as usize];
-        if let Some(m) = shape.nearest(&self.ray, &self.coarse, false, self.best) {
-            if m.distance < self.best || (m.distance == self.best && id < self.id) {
-                (self.best, self.id) = (m.distance, id);
-            }
+        if let Some(m) = shape.nearest(&self.ray, &self.coarse, false, self.best)
+            && (m.distance < self.best || (m.distance == self.best && id < self.id))
+        {
+            (self.best, self.id) = (m.distance, id);
         }
         false
     }
@@ -616,7 +616,7 @@ fn grow(words: &mut Vec<u32>, slot: usize, level: usize, count: usize, random: &
         }
         word
     };
-    if level % 2 == 0 {
+    if level.is_multiple_of(2) {
         words[slot] = word(false);
     } else {
         words[slot] = node::leaf_of_run(first);
