@@ -7,7 +7,7 @@
 //! through one edge are compared as the same two numbers, so that no ray slips in between faces.
 
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
-use super::{ok_or_panic, point, some_or};
+use super::{ok_or_panic, point};
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic};
 use crate::octree::Extent;
 
