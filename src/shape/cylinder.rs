@@ -93,7 +93,10 @@ impl<A: Arithmetic> Shape<A> for Cylinder<A> {
         let across = |d: A::Unit, a: A::Unit| d - A::product(da, a);
         let [x, y, z] = ray.direction;
         let [ax, ay, az] = self.axis;
-        let (m, q) = A::renormalize(&[across(x, ax), across(y, ay), across(z, az)]);
+        let dp = [across(x, ax), across(y, ay), across(z, az)];
+        let (m, _) = A::renormalize(&dp);
+        // Rather than the length as such: what m is short of a unit vector then cancels.
+        let q = A::dot(&dp, &m);
         // A ray along the axis stays as far from it as it is.
         if q <= A::NO_UNIT {
             return None;

@@ -175,13 +175,18 @@ impl<A: Arithmetic> Shape<A> for Owned<A> {
 trait Make: Arithmetic {
     fn make(solid: &Solid) -> Option<Box<dyn Probe<Self>>>;
     fn extent(solid: &Solid, log2_step: i8) -> Option<Extent>;
+    /// The least slope of a plane to a ray at which its shapes have no cracks, at distances of
+    /// tens of their size.
+    const GLANCE: f64;
 }
 
 use crate::octree::Extent;
 
 macro_rules! make {
-    ($a:ty) => {
+    ($a:ty, $glance:literal) => {
         impl Make for $a {
+            const GLANCE: f64 = $glance;
+
             fn make(solid: &Solid) -> Option<Box<dyn Probe<$a>>> {
                 Some(match solid {
                     Solid::Sphere(c, r) => Box::new(Sphere::<$a>::try_new(*c, *r, 0).ok()?),
@@ -220,9 +225,9 @@ macro_rules! make {
         }
     };
 }
-make!(Fixed);
-make!(f32);
-make!(f64);
+make!(Fixed, 0.02);
+make!(f32, 0.001);
+make!(f64, 0.001);
 
 fn point() -> impl Strategy<Value = V> {
     prop::array::uniform3(-1.0..1.0f64)
@@ -311,6 +316,10 @@ fn agree<A: Test + Make>(
 ) -> Result<(), TestCaseError> {
     let ray = ray::<A>(o, d);
     let (o, d) = (ray.origin.map(A::of_length), unit(ray.direction.map(A::of_unit)));
+    // At a glance a flat shape is larger than it is.
+    if face(solid).is_some_and(|n| dot(n, d).abs() < A::GLANCE) {
+        return Ok(());
+    }
     let Some(expected) = clearly(solid, o, d, clear) else { return Ok(()) };
     with::<A, _>(solid, |shape| {
         let hit = shape.nearest(&ray, false, A::FAR).filter(|m| m.distance < A::FAR);
@@ -331,7 +340,14 @@ fn agree<A: Test + Make>(
                 prop_assert!(cosine >= 0.0 && (cosine + dot(n, d)).abs() < 2.0 * normal_bound);
                 // what occludes, and what doesn't
                 prop_assert!(shape.occludes(&ray, A::length(t + clear)));
-                prop_assert!(!shape.occludes(&ray, A::length(t - clear)));
+                prop_assert!(
+                    !shape.occludes(&ray, A::length(t - clear)),
+                    "{} {:?} {:?} {}",
+                    A::NAME,
+                    ray,
+                    m,
+                    t
+                );
                 prop_assert!(shape.nearest(&ray, false, A::length(t - clear)).is_none());
             }
             (got, expected) => prop_assert!(false, "{}: {got:?} for {expected:?}", A::NAME),
@@ -341,6 +357,38 @@ fn agree<A: Test + Make>(
     .unwrap_or(Ok(()))
 }
 
+/// Where to aim to hit a shape more often than not: near its middle.
+fn aimed(solid: &Solid, p: V) -> V {
+    let (middle, reach) = match solid {
+        Solid::Sphere(c, r) | Solid::Disc(c, _, r) => (*c, *r),
+        Solid::Cuboid(a, b) => (times(add(*a, *b), 0.5), 0.5),
+        Solid::Triangle(c) => (times(add(add(c[0], c[1]), c[2]), 1.0 / 3.0), 0.5),
+        Solid::Polygon(c) => (center(c), 0.3),
+        Solid::Cylinder(b, a, r) => (times(add(*b, *a), 0.5), *r),
+        Solid::Cone(b, r, a, s) => (times(add(*b, *a), 0.5), (r + s) * 0.5),
+    };
+    add(middle, times(p, reach * 1.2))
+}
+
+/// The normal of a shape made of triangles.
+fn face(solid: &Solid) -> Option<V> {
+    match solid {
+        Solid::Triangle(c) => Some(unit(cross(minus(c[1], c[0]), minus(c[2], c[0])))),
+        Solid::Polygon(c) => Some(unit(cross(minus(c[1], c[0]), minus(c[2], c[0])))),
+        _ => None,
+    }
+}
+
+fn center(c: &[V]) -> V {
+    times(c.iter().copied().fold([0.0; 3], add), 1.0 / c.len() as f64)
+}
+
+/// The origin moved so that, for small `glance`, the ray to `p` grazes the plane across `n`.
+fn glancing(o: V, p: V, n: V, glance: f64) -> V {
+    let n = unit(n);
+    if glance < 0.5 { add(o, times(n, dot(minus(p, o), n) * (1.0 - glance * glance))) } else { o }
+}
+
 /// From a point around towards one within the scene.
 fn sight() -> impl Strategy<Value = (V, V)> {
     (prop::array::uniform3(-3.0..3.0f64), point())
@@ -348,11 +396,11 @@ fn sight() -> impl Strategy<Value = (V, V)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig::with_cases(40000))]
 
     #[test]
     fn three_arithmetics_and_the_textbook(s in solid(), (o, p) in sight()) {
-        let d = unit(minus(p, o));
+        let d = unit(minus(aimed(&s, p), o));
         agree::<f64>(&s, o, d, 1e-7, 1e-6, 1e-5)?;
         for extent in [10.0, 100.0] {
             let (s, o) = (scaled(&s, extent / 2.0), times(o, extent / 2.0));
@@ -392,7 +440,7 @@ proptest! {
                 Ok(())
             }).unwrap_or(Ok(()))
         }
-        let d = unit(minus(p, o));
+        let d = unit(minus(aimed(&s, p), o));
         far::<f64>(&s, o, d, 1e-5)?;
         far::<Fixed>(&scaled(&s, 5.0), times(o, 5.0), d, 0.05)?;
         far::<f32>(&scaled(&s, 50.0), times(o, 50.0), d, 0.05)?;
@@ -420,7 +468,7 @@ proptest! {
             }
             Ok(())
         }
-        let d = unit(minus(p, o));
+        let d = unit(minus(aimed(&s, p), o));
         within::<Fixed>(&scaled(&s, 5.0), times(o, 5.0), d, -16)?;
         within::<f32>(&scaled(&s, 50.0), times(o, 50.0), d, -16)?;
         within::<f64>(&scaled(&s, 50.0), times(o, 50.0), d, -16)?;
@@ -429,8 +477,13 @@ proptest! {
     #[test]
     fn edges_between_triangles_are_tight(
         c in prop::array::uniform4(point()), along in 0.001..0.999f64, o in prop::array::uniform3(-3.0..3.0f64),
+        glance in 0.0..1.0f64, bend in 0.0..0.4f64,
     ) {
-        fn tight<A: Test + Make>(c: [V; 4], p: V, o: V) -> Result<(), TestCaseError> {
+        fn tight<A: Test + Make>(c: [V; 4], p: V, o: V, slope: f64) -> Result<(), TestCaseError> {
+            if slope < A::GLANCE {
+                return Ok(());
+            }
+
             let ray = ray::<A>(o, unit(minus(p, o)));
             let hit = |s: Solid| with::<A, _>(&s, |s| s.nearest(&ray, false, A::FAR).is_some());
             let pair = (hit(Solid::Triangle([c[0], c[1], c[2]])), hit(Solid::Triangle([c[1], c[0], c[3]])));
@@ -440,55 +493,68 @@ proptest! {
             Ok(())
         }
         let p = add(times(c[0], along), times(c[1], 1.0 - along));
+        // A quarter of the pairs are nearly in one plane.
+        let fourth = add(times(p, 2.0), times(c[2], -1.0));
+        let c = if bend < 0.1 {
+            [c[0], c[1], c[2], add(fourth, times(minus(c[3], fourth), bend * bend))]
+        } else {
+            c
+        };
         let (left, right) = (minus(c[2], c[0]), minus(c[3], c[0]));
         let e = minus(c[1], c[0]);
         prop_assume!(dot(e, e) > 0.01);
         let (m, n) = (cross(e, left), cross(right, e));
         prop_assume!(dot(m, m) > 1e-3 && dot(n, n) > 1e-3);
-        // From a side on which the two triangles lie left and right of the edge, not one before
-        // the other: a silhouette has no other side to hit.
+        let o = glancing(o, p, m, glance);
         let way = minus(p, o);
-        prop_assume!(dot(unit(way), unit(m)).abs() > 0.002 && dot(unit(way), unit(n)).abs() > 0.002);
+        let slope = dot(unit(way), unit(m)).abs().min(dot(unit(way), unit(n)).abs());
+        // Seen along the two faces' outline, an edge has nothing beyond it to hit.
         if dot(way, m) * dot(way, n) < 0.0 {
             return Ok(());
         }
         for size in [1.0, 7.0, 100.0] {
             let c = c.map(|x| times(x, size));
             let (p, o) = (times(p, size), times(o, size));
-            tight::<Fixed>(c, p, o)?;
-            tight::<f32>(c, p, o)?;
-            tight::<f64>(c, p, o)?;
+            tight::<Fixed>(c, p, o, slope)?;
+            tight::<f32>(c, p, o, slope)?;
+            tight::<f64>(c, p, o, slope)?;
         }
     }
 
     #[test]
     fn fans_and_polygons_are_tight(
         s in solid(), spoke in 0usize..12, along in 0.0..0.999f64, o in prop::array::uniform3(-3.0..3.0f64),
+        glance in 0.0..1.0f64,
     ) {
-        fn tight<A: Test + Make>(parts: &[Solid], p: V, o: V) -> Result<(), TestCaseError> {
+        fn tight<A: Test + Make>(parts: &[Solid], p: V, o: V, slope: f64) -> Result<(), TestCaseError> {
+            if slope < A::GLANCE {
+                return Ok(());
+            }
+
             let ray = ray::<A>(o, unit(minus(p, o)));
             let hit = |s: &Solid| with::<A, _>(s, |s| s.nearest(&ray, false, A::FAR).is_some());
             let hits: Vec<_> = parts.iter().map(hit).collect();
             if hits.iter().all(Option::is_some) {
-                prop_assert!(hits.contains(&Some(true)), "{}", A::NAME);
+                prop_assert!(hits.contains(&Some(true)), "{} {:?} {:?}", A::NAME, parts, ray);
             }
             Ok(())
         }
         let Solid::Polygon(c) = &s else { return Ok(()) };
         let n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
-        let mid = times(c.iter().copied().fold([0.0; 3], add), 1.0 / c.len() as f64);
+        let mid = center(c);
         let spoke = spoke % c.len();
         let p = add(times(mid, 1.0 - along), times(c[spoke], along));
+        let o = glancing(o, p, n, glance);
         let way = minus(p, o);
-        prop_assume!(dot(unit(way), unit(n)).abs() > 0.002);
+        let slope = dot(unit(way), unit(n)).abs();
         for size in [1.0, 7.0, 100.0] {
             let at = |i: usize| times(c[i % c.len()], size);
             let (m, p, o) = (times(mid, size), times(p, size), times(o, size));
             let fan: Vec<_> =
                 (0..c.len()).map(|i| Solid::Triangle([m, at(i), at(i + 1)])).collect();
-            tight::<Fixed>(&fan, p, o)?;
-            tight::<f32>(&fan, p, o)?;
-            tight::<f64>(&fan, p, o)?;
+            tight::<Fixed>(&fan, p, o, slope)?;
+            tight::<f32>(&fan, p, o, slope)?;
+            tight::<f64>(&fan, p, o, slope)?;
             // cut in two along a diagonal
             if c.len() >= 4 {
                 let half = c.len() / 2;
@@ -496,9 +562,10 @@ proptest! {
                 let second = (half..=c.len()).map(at).collect();
                 let halves = [Solid::Polygon(first), Solid::Polygon(second)];
                 let q = add(times(at(0), 1.0 - along), times(at(half), along));
-                tight::<Fixed>(&halves, q, o)?;
-                tight::<f32>(&halves, q, o)?;
-                tight::<f64>(&halves, q, o)?;
+                let slope = dot(unit(minus(q, o)), unit(n)).abs();
+                tight::<Fixed>(&halves, q, o, slope)?;
+                tight::<f32>(&halves, q, o, slope)?;
+                tight::<f64>(&halves, q, o, slope)?;
             }
         }
     }
