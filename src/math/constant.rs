@@ -69,7 +69,11 @@ pub const fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 /// The vectors b and c of the plane for which the linear forms are 1 and 0, 0 and 1; and by
 /// what their components may be wrong if `error` is the sum of what one coefficient of each
 /// form may be wrong.
-pub const fn inverted(second: [f64; 2], third: [f64; 2], error: f64) -> ([f64; 2], [f64; 2], f64) {
+pub(crate) const fn inverted(
+    second: [f64; 2],
+    third: [f64; 2],
+    error: f64,
+) -> ([f64; 2], [f64; 2], f64) {
     let det = second[0] * third[1] - second[1] * third[0];
     let b = [third[1] / det, -third[0] / det];
     let c = [-second[1] / det, second[0] / det];

@@ -119,10 +119,11 @@ impl<A: Arithmetic> Shape<A> for Cylinder<A> {
             let height = A::scale(t, da) - ca;
             if height >= A::NO_LENGTH && height <= self.length { Some(t) } else { None }
         };
-        if !inwards && !self.material.inside_only() {
-            if let Some(distance) = at(middle - half) {
-                return Some(Meeting { distance, detail: -half });
-            }
+        if !inwards
+            && !self.material.inside_only()
+            && let Some(distance) = at(middle - half)
+        {
+            return Some(Meeting { distance, detail: -half });
         }
         at(middle + half).map(|distance| Meeting { distance, detail: half })
     }

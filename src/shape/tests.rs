@@ -288,21 +288,25 @@ fn scaled(solid: &Solid, k: f64) -> Solid {
 }
 
 /// The reference's answer if rays that start `clear` away meet the same surface, at nearly the
-/// same distance.
-fn clearly(solid: &Solid, o: V, d: V, clear: f64) -> Option<Option<(f64, V)>> {
+/// same distance; and by how much their normals differ.
+fn clearly(solid: &Solid, o: V, d: V, clear: f64) -> Option<(Option<(f64, V)>, f64)> {
     let first = reference(solid, o, d).first().copied();
+    let mut turn = 0.0f64;
     for i in 0..3 {
         for step in [clear, -clear] {
             let mut near = o;
             near[i] += step;
             match (first, reference(solid, near, d).first()) {
                 (None, None) => {}
-                (Some(a), Some(b)) if (a.0 - b.0).abs() < 6.0 * clear && a.0 > 2.0 * clear => {}
+                (Some(a), Some(b)) if (a.0 - b.0).abs() < 6.0 * clear && a.0 > 2.0 * clear => {
+                    let f = minus(a.1, b.1);
+                    turn = turn.max(dot(f, f).sqrt());
+                }
                 _ => return None,
             }
         }
     }
-    Some(first)
+    Some((first, turn))
 }
 
 /// Distance, side and normal agree with the reference, wherever that is clear.
@@ -320,7 +324,9 @@ fn agree<A: Test + Make>(
     if face(solid).is_some_and(|n| dot(n, d).abs() < A::GLANCE) {
         return Ok(());
     }
-    let Some(expected) = clearly(solid, o, d, clear) else { return Ok(()) };
+    let Some((expected, turn)) = clearly(solid, o, d, clear) else { return Ok(()) };
+    // where a surface bends, an error of the position is one of the normal
+    let normal_bound = normal_bound + turn * (bound / clear);
     with::<A, _>(solid, |shape| {
         let hit = shape.nearest(&ray, false, A::FAR).filter(|m| m.distance < A::FAR);
         match (hit, expected) {
@@ -619,5 +625,50 @@ proptest! {
                 shape.surface(&ray, &m);
             }
         });
+    }
+
+    #[test]
+    fn smooth_normals(
+        c in prop::array::uniform3(point()), n in prop::array::uniform3(point()),
+        w in prop::array::uniform2(0.0..1.0f64), o in prop::array::uniform3(-3.0..3.0f64),
+    ) {
+        let front = cross(minus(c[1], c[0]), minus(c[2], c[0]));
+        if dot(front, front) < 0.01 {
+            return Ok(());
+        }
+        // normals on the front, of a mesh that is not too coarse
+        let n = n.map(|n| unit(add(times(unit(front), 1.0), times(n, 0.5))));
+        let w = if w[0] + w[1] > 1.0 { w.map(|x| 1.0 - x) } else { w };
+        let p = add(c[0], add(times(minus(c[1], c[0]), w[0]), times(minus(c[2], c[0]), w[1])));
+        let d = unit(minus(p, o));
+        if dot(d, unit(front)).abs() < 0.05 {
+            return Ok(());
+        }
+        let blend = [0, 1, 2].map(|i| (1.0 - w[0] - w[1]) * n[0][i] + w[0] * n[1][i] + w[1] * n[2][i]);
+        let behind = dot(d, front) > 0.0;
+        let blend = times(unit(blend), if behind { -1.0 } else { 1.0 });
+        let faces = -dot(d, blend);
+        macro_rules! check {
+            ($a:ty, $bound:literal) => {
+                if let Ok(shape) = SmoothTriangle::<$a>::try_new(c, n, 0) {
+                    let ray = ray::<$a>(o, d);
+                    let m = Probe::nearest(&shape, &ray, false, <$a>::FAR).expect("aimed at it");
+                    let s = Probe::surface(&shape, &ray, &m);
+                    prop_assert_eq!(s.behind, behind);
+                    let (got, flat) = (s.normal.map(<$a>::of_unit), s.geometric.map(<$a>::of_unit));
+                    let cosine = <$a>::of_unit(s.cosine);
+                    prop_assert!(cosine >= 0.0 && (cosine + dot(got, d)).abs() < $bound);
+                    let expected = if faces > $bound { blend } else { flat };
+                    if faces.abs() > $bound {
+                        for i in 0..3 {
+                            prop_assert!((got[i] - expected[i]).abs() < $bound, "{:?} {:?}", got, expected);
+                        }
+                    }
+                }
+            };
+        }
+        check!(Fixed, 1e-2);
+        check!(f32, 1e-4);
+        check!(f64, 1e-9);
     }
 }
