@@ -207,7 +207,7 @@ pub(crate) const fn half(outline: &FixedOutline) -> [f64; 2] {
 /// The half plane that `inward` points into from the point `at`; everything for a null vector.
 pub(crate) const fn edge(inward: [f64; 2], at: [f64; 2], outline: &FixedOutline) -> FixedEdge {
     let largest = max(abs(inward[0]), abs(inward[1]));
-    if !(largest > 0.0) {
+    if largest <= 0.0 {
         return FixedEdge { normal: [0, 0], offset: 0 };
     }
     let n = [clip(inward[0] / largest * 16384.0), clip(inward[1] / largest * 16384.0)];

@@ -168,10 +168,11 @@ fn steps(x: I16F16, s: u8) -> i32 {
 /// have no cracks. A hit is off by a step of a length for each unit of the way and four for the
 /// products, the plane by a quarter of a step at the corners, all that over the slope; two steps
 /// for the forms' coefficients, one for the rounding of both coordinates. Never more than 1024:
-/// a thirtieth of the shape, at a glance of less than 2⁻¹⁰.
+/// a thirtieth of the shape; so at a glance there can be cracks, from a slope of about
+/// 1/64 (small shapes, tens of their size away) down.
 #[inline(always)]
 fn slack_steps(t: I16F16, slope: Unit, s: u8) -> i32 {
-    let off = ((t.to_bits() >> 16) + 4 >> s) + 1;
+    let off = (((t.to_bits() >> 16) + 4) >> s) + 1;
     // 1/slope ≤ 2^(z − 14)
     let (_, z) = root::normalize(slope.to_bits() as u32 | 1);
     let up = if z > 24 { 10 } else { z.saturating_sub(14) };
@@ -490,16 +491,7 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn weights(form: &FixedBarycentric, x: I16F16, y: I16F16) -> (Weight, Weight) {
         let s = form.shift & 31;
-        let short = |x: I16F16| {
-            let x = steps(x, s);
-            if x > 32767 {
-                32767
-            } else if x < -32768 {
-                -32768
-            } else {
-                x
-            }
-        };
+        let short = |x: I16F16| steps(x, s).clamp(-32768, 32767);
         let (x, y) = (short(x), short(y));
         let value = |form: &[i16; 2], down: u8, most: i32| {
             let sum =
