@@ -1,0 +1,11 @@
+//! The host's side of `whitted`: scene files, rendering, pictures.
+//!
+//! A file is [`read`](read::read) into a [`Document`](document::Document), which says what the
+//! file says and nothing else.
+
+pub mod document;
+pub mod error;
+pub mod nff;
+pub mod polygon;
+pub mod read;
+pub mod toml;
