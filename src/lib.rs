@@ -4,4 +4,7 @@
 
 pub mod math;
 pub mod octree;
+pub mod scene;
 pub mod shape;
+pub mod tally;
+pub mod trace;

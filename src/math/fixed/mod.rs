@@ -176,6 +176,7 @@ impl Arithmetic for Fixed {
     const NO_WEIGHT: Weight = Weight::ZERO;
     const FULL: Weight = Weight::ONE;
     const BLACK: I16F16 = I16F16::ZERO;
+    const CUTOFF: Weight = Weight::from_bits(64);
 
     #[inline(always)]
     fn along(o: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> [I16F16; 3] {
@@ -423,6 +424,13 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn weight(a: Weight, b: Weight) -> Weight {
         Weight::from_bits(((a.to_bits() as u32).wrapping_mul(b.to_bits() as u32) >> 14) as i32)
+    }
+
+    #[inline(always)]
+    fn quotient(a: Weight, b: Weight) -> Weight {
+        // a ≤ b ≤ 2 here: a << 14 fits
+        let quotient = (a.to_bits() << 14).checked_div(b.to_bits()).unwrap_or(0);
+        Weight::from_bits(quotient)
     }
 
     #[inline(always)]
