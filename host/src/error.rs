@@ -176,7 +176,9 @@ impl fmt::Display for Problem {
                 if known.is_empty() { Ok(()) } else { write!(f, "; known: {}", known.join(", ")) }
             }
             Self::Missing { what } => write!(f, "{what} is missing"),
-            Self::Twice { what, first } => write!(f, "a second {what}; the first is at line {first}"),
+            Self::Twice { what, first } => {
+                write!(f, "a second {what}; the first is at line {first}")
+            }
             Self::Degenerate { what, why } => write!(f, "{what}: {why}"),
             Self::Unrepresentable { what, why } => write!(f, "{what} can't be represented: {why}"),
         }

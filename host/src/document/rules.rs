@@ -39,7 +39,7 @@ impl Rules {
     /// What a file in Neutral File Format means.
     pub const NFF: Self = Self {
         specular_cosine: false,
-        highlight_cosine: true,
+        highlight_cosine: false,
         falloff: Falloff::None,
         transmitters_reflect: true,
         lossy_total_reflection: false,

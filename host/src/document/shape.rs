@@ -130,8 +130,9 @@ impl Body {
                 (*radius == 0.0).then_some("its radius is 0: it must be another number")
             }
             Self::Plane { normal, .. } => null(*normal),
-            Self::Disc { normal, radius, .. } => null(*normal)
-                .or((*radius <= 0.0).then_some("its radius must be larger than 0")),
+            Self::Disc { normal, radius, .. } => {
+                null(*normal).or((*radius <= 0.0).then_some("its radius must be larger than 0"))
+            }
             Self::Box { low, high } => (0..3)
                 .any(|i| low[i] >= high[i])
                 .then_some("its min must lie below its max on each axis"),

@@ -63,7 +63,10 @@ impl Bounds {
         let with = |pick: fn(f64, f64) -> f64, a: Point, b: Point| {
             [pick(a[0], b[0]), pick(a[1], b[1]), pick(a[2], b[2])]
         };
-        Self { low: with(f64::min, self.low, other.low), high: with(f64::max, self.high, other.high) }
+        Self {
+            low: with(f64::min, self.low, other.low),
+            high: with(f64::max, self.high, other.high),
+        }
     }
 
     /// Its middle.

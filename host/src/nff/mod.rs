@@ -8,16 +8,15 @@ mod patch;
 mod token;
 
 use crate::document::{
-    Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, Rgb, Rules,
-    Shape, ShadowThrough, Size, Span, Warning,
+    Background, Body, Camera, Document, FARTHEST, Falloff, Light, LightKind, Material, Point, Rgb,
+    Rules, ShadowThrough, Shape, Size, Span, Warning,
 };
 use crate::error::{Flaw, Problem};
 use token::Tokens;
 
 /// The words that an entity can start with.
-const WORDS: [&str; 13] = [
-    "v", "from", "at", "up", "angle", "hither", "resolution", "b", "l", "f", "s", "c", "p",
-];
+const WORDS: [&str; 13] =
+    ["v", "from", "at", "up", "angle", "hither", "resolution", "b", "l", "f", "s", "c", "p"];
 const PATCH: &str = "pp";
 
 /// Reads a text in Neutral File Format.
@@ -91,7 +90,9 @@ impl Reader<'_> {
             "from" => once(&mut self.view.from, tokens.point("from")?, word, line),
             "at" => once(&mut self.view.at, tokens.point("at")?, word, line),
             "up" => once(&mut self.view.up, tokens.point("up")?, word, line),
-            "angle" => once(&mut self.view.angle, tokens.number_in("angle", 0.01, 179.0)?, word, line),
+            "angle" => {
+                once(&mut self.view.angle, tokens.number_in("angle", 0.01, 179.0)?, word, line)
+            }
             "hither" => once(&mut self.view.hither, tokens.number("hither")?, word, line),
             "resolution" => {
                 let width = tokens.count("resolution x", 1, Size::LARGEST)?;
@@ -113,10 +114,9 @@ impl Reader<'_> {
 
     fn light(&mut self, line: usize) -> Result<(), Flaw> {
         let position = self.tokens.point("light")?;
-        // A colour may follow; what is no word that starts an entity is taken for one.
-        let colored = self.tokens.peek().is_some_and(|w| w != PATCH && !WORDS.contains(&w));
-        let numeric = self.tokens.peek().is_some_and(|w| w.parse::<f64>().is_ok());
-        let color = (colored && numeric).then(|| self.tokens.color("light")).transpose()?;
+        // A colour may follow: no word that starts an entity reads as a number.
+        let colored = self.tokens.peek().is_some_and(|w| w.parse::<f64>().is_ok());
+        let color = colored.then(|| self.tokens.color("light")).transpose()?;
         self.lights.push((position, color, line));
         Ok(())
     }
@@ -125,13 +125,15 @@ impl Reader<'_> {
         let tokens = &mut self.tokens;
         let color = tokens.color("material")?;
         let diffuse = tokens.number_in("Kd", 0.0, 16.0)?;
-        let specular = tokens.number_in("Ks", 0.0, 15.99)?;
+        let specular = tokens.number_in("Ks", 0.0, 1.0)?;
         let shininess = tokens.number_in("Shine", 0.0, 1e6)?;
         let transmission = tokens.number_in("T", 0.0, 1.0)?;
         let index = tokens.number("ior")?;
         // An opaque body's index says nothing, and often is 0.
         if transmission > 0.0 && !(0.25..=4.0).contains(&index) {
-            return Err(Problem::range("ior", index, "0.25 to 4 where T is not 0").at(tokens.line()));
+            return Err(
+                Problem::range("ior", index, "0.25 to 4 where T is not 0").at(tokens.line())
+            );
         }
         self.materials.push(Material {
             ambient: [0.0; 3],
@@ -149,16 +151,15 @@ impl Reader<'_> {
 
     fn sphere(&mut self, line: usize) -> Result<(), Flaw> {
         let center = self.tokens.point("sphere")?;
-        let radius = self.tokens.number_in("sphere radius", -crate::document::FARTHEST, crate::document::FARTHEST)?;
+        let radius = self.tokens.number_in("sphere radius", -FARTHEST, FARTHEST)?;
         self.shape(Body::Sphere { center, radius }, line)
     }
 
     fn cone(&mut self, line: usize) -> Result<(), Flaw> {
-        let far = crate::document::FARTHEST;
         let base = self.tokens.point("cone base")?;
-        let base_radius = self.tokens.number_in("cone base radius", -far, far)?;
+        let base_radius = self.tokens.number_in("cone base radius", -FARTHEST, FARTHEST)?;
         let apex = self.tokens.point("cone apex")?;
-        let apex_radius = self.tokens.number_in("cone apex radius", -far, far)?;
+        let apex_radius = self.tokens.number_in("cone apex radius", -FARTHEST, FARTHEST)?;
         let body = if base_radius == apex_radius {
             Body::Cylinder { base, apex, radius: base_radius }
         } else {
