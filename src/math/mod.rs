@@ -27,6 +27,7 @@ pub(crate) use constant::{cross as cross_f64, unit_vector as unit_f64};
 pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
 pub use fixed::{FixedInverse, FixedRadius};
 pub use float::{FloatBarycentric, FloatEta, FloatRadius};
+pub(crate) use root::normalize as normalize_u32;
 pub use root::sqrt_f32;
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
 
