@@ -3,9 +3,15 @@
 //! A file is [`read`](read::read) into a [`Document`](document::Document), which says what the
 //! file says and nothing else.
 
+pub mod bake;
 pub mod document;
 pub mod error;
 pub mod nff;
+pub mod number;
+pub mod picture;
 pub mod polygon;
 pub mod read;
+pub mod render;
+pub mod stats;
 pub mod toml;
+pub mod tree;
