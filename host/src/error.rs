@@ -101,6 +101,8 @@ pub enum Problem {
         /// Why.
         why: String,
     },
+    /// The settings of the picture are out of range, in the core's words.
+    Settings(String),
     /// It is right, but the arithmetic asked for can't hold it.
     Unrepresentable {
         /// What.
@@ -165,7 +167,7 @@ impl fmt::Display for Problem {
                 write!(f, "unknown format \"{}\"; known: .toml, .nff", shown(ending))
             }
             Self::Empty => write!(f, "there is no scene in this file; it is empty"),
-            Self::Syntax(words) => write!(f, "{words}"),
+            Self::Syntax(words) | Self::Settings(words) => write!(f, "{words}"),
             Self::Ended { wanted } => write!(f, "the file ends where {wanted} should follow"),
             Self::Found { found, wanted } => write!(f, "found {found}; {wanted} should be here"),
             Self::Range { what, value, right } => {

@@ -12,6 +12,7 @@ pub mod picture;
 pub mod polygon;
 pub mod read;
 pub mod render;
+pub mod show;
 pub mod stats;
 pub mod toml;
 pub mod tree;

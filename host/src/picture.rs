@@ -133,24 +133,9 @@ pub fn save(
     Ok(())
 }
 
-/// A linear radiance in 1/65536 as an 8-bit sRGB pixel (IEC 61966-2-1).
-pub fn tone(radiance_q16: [i32; 3]) -> [u8; 3] {
-    radiance_q16.map(|q| {
-        let x = (f64::from(q) / 65536.0).clamp(0.0, 1.0);
-        let v = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-        (v * 255.0).round() as u8
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tones() {
-        assert_eq!(tone([0, 65536, 70000]), [0, 255, 255]);
-        assert_eq!(tone([-5, 14027, 32768]), [0, 127, 188]);
-    }
 
     #[test]
     fn a_picture_as_text() {

@@ -2,44 +2,19 @@
 
 use std::time::{Duration, Instant};
 
-use whitted::math::{Arithmetic, Rgb, rgb};
-use whitted::scene::View;
-use whitted::shape::Ray;
+pub use whitted::frame::Sampling;
+use whitted::frame::{Output, Renderer, Rgb888};
 use whitted::tally::Counts;
 use whitted::trace::{Tracer, Work};
 
 use crate::bake::{Baked, Construct};
 use crate::document::{Rules, Size};
-use crate::error::Flaw;
-use crate::number::to_f64;
+use crate::error::{Flaw, Problem};
 use crate::picture::Picture;
+use crate::show::{self, Show};
 
 /// The deepest tree of rays that any scene can ask for.
-const MAX_DEPTH: usize = Rules::DEEPEST as usize;
-
-/// Where in a pixel rays go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sampling {
-    /// One through each pixel's centre.
-    Center,
-    /// One through each corner, four averaged to a pixel (SPD's rule).
-    Corners,
-}
-
-/// What the picture shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Show {
-    /// The scene.
-    Radiance,
-    /// The distance of the nearest hit, near ones bright.
-    Depth,
-    /// The normal there, x y z as red green blue.
-    Normal,
-    /// How many rays each pixel took.
-    Rays,
-    /// How many nodes of the octree each pixel visited.
-    Octree,
-}
+pub(crate) const MAX_DEPTH: usize = Rules::DEEPEST as usize;
 
 /// How to render.
 #[derive(Clone, Copy, Debug)]
@@ -50,8 +25,20 @@ pub struct Settings {
     pub depth: u8,
     /// Where in a pixel rays go.
     pub sampling: Sampling,
-    /// What the picture shows.
-    pub show: Show,
+    /// What the picture shows instead of the scene.
+    pub show: Option<Show>,
+}
+
+impl Settings {
+    fn for_core(&self) -> whitted::frame::Settings {
+        // Larger sizes become one that the core refuses.
+        let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
+        whitted::frame::Settings {
+            depth: self.depth,
+            sampling: self.sampling,
+            ..whitted::frame::Settings::new(side(self.size.width), side(self.size.height))
+        }
+    }
 }
 
 /// A picture, and what it took.
@@ -68,129 +55,33 @@ pub struct Rendered {
 /// Renders a picture; `progress` is told the number of rows that are done.
 ///
 /// # Errors
-/// The arithmetic can't hold the camera.
+/// A size or depth that is out of range, or a camera that the arithmetic can't hold.
 pub fn render<A: Construct>(
     baked: &Baked<A>,
     settings: &Settings,
     mut progress: impl FnMut(u32),
 ) -> Result<Rendered, Flaw> {
     let start = Instant::now();
-    let Ok(scene) = baked.scene() else { unreachable!("a baked scene has been checked") };
+    let scene = baked.scene()?;
     let camera = baked.camera(settings.size)?;
-    let tracer = Tracer::new(&scene, settings.depth);
-    let Size { width, height } = settings.size;
-    // Sizes are at most `Size::LARGEST`.
-    let view = View::new(&camera, width as u16, height as u16);
-    let mut painter =
-        Painter { tracer, view, work: Work::new(), counts: Counts::default(), width: width as u16 };
+    let core = settings.for_core();
+    let mut work = Work::<A, MAX_DEPTH>::new();
+    let mut samples = vec![[A::BLACK; 3]; core.sampling.samples(core.width)];
+    let counts = Counts::default();
+    let mut renderer = Renderer::with_tally(&scene, &camera, core, &mut work, &mut samples, counts)
+        .map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
     let mut picture = Picture::new(settings.size);
-    if settings.show == Show::Radiance {
-        painter.radiance(settings.sampling, &mut picture, &mut progress);
+    if let Some(show) = settings.show {
+        let tracer = Tracer::new(&scene, settings.depth);
+        show::paint(&mut renderer, &tracer, show, &mut picture, &mut progress);
     } else {
-        painter.values(settings.show, &mut picture, &mut progress);
-    }
-    Ok(Rendered { picture, counts: painter.counts, time: start.elapsed() })
-}
-
-struct Painter<'a, A: Construct> {
-    tracer: Tracer<'a, A>,
-    view: View<A>,
-    work: Work<A, MAX_DEPTH>,
-    counts: Counts,
-    width: u16,
-}
-
-/// Half a pixel, in the camera's 1/256.
-const HALF: u8 = 128;
-
-impl<A: Construct> Painter<'_, A> {
-    fn trace(&mut self, ray: &Ray<A>) -> Rgb<A::Radiance> {
-        self.tracer.radiance(ray, &mut self.work, &mut self.counts)
-    }
-
-    fn radiance(&mut self, sampling: Sampling, out: &mut Picture, progress: &mut dyn FnMut(u32)) {
-        let quantum = |c: Rgb<A::Radiance>| c.map(A::to_q16);
-        match sampling {
-            Sampling::Center => {
-                for (y, pixels) in out.rows_mut().enumerate() {
-                    let row = self.view.row(y as u16, HALF);
-                    for (x, pixel) in pixels.iter_mut().enumerate() {
-                        let ray = self.view.ray(&row, x as u16, HALF);
-                        *pixel = crate::picture::tone(quantum(self.trace(&ray)));
-                    }
-                    progress(y as u32 + 1);
-                }
-            }
-            Sampling::Corners => {
-                let mut above = self.corners(0);
-                for (y, pixels) in out.rows_mut().enumerate() {
-                    let below = self.corners(y as u16 + 1);
-                    let pairs = above.windows(2).zip(below.windows(2));
-                    for (pixel, (a, b)) in pixels.iter_mut().zip(pairs) {
-                        let sum =
-                            [a[1], b[0], b[1]].iter().fold(a[0], |s, c| rgb(&s, c, A::gather));
-                        *pixel = crate::picture::tone(sum.map(|s| A::to_q16(A::mean(s, 4))));
-                    }
-                    above = below;
-                    progress(y as u32 + 1);
-                }
-            }
+        let mut line = vec![Rgb888::default(); usize::from(core.width)];
+        for (y, row) in (0..core.height).zip(picture.rows_mut()) {
+            renderer.line(y, &Output::SRGB, &mut line);
+            row.iter_mut().zip(&line).for_each(|(to, from)| *to = from.0);
+            progress(u32::from(y) + 1);
         }
     }
-
-    fn corners(&mut self, y: u16) -> Vec<Rgb<A::Radiance>> {
-        let row = self.view.row(y, 0);
-        (0..=self.width).map(|x| self.trace(&self.view.ray(&row, x, 0))).collect()
-    }
-
-    /// A number for each pixel, then shown relative to the largest.
-    fn values(&mut self, show: Show, out: &mut Picture, progress: &mut dyn FnMut(u32)) {
-        let mut all: Vec<f64> = Vec::new();
-        for (y, pixels) in out.rows_mut().enumerate() {
-            let row = self.view.row(y as u16, HALF);
-            for (x, pixel) in pixels.iter_mut().enumerate() {
-                let ray = self.view.ray(&row, x as u16, HALF);
-                let before = self.counts;
-                match show {
-                    Show::Depth => all.push(self.nearness(&ray)),
-                    Show::Normal => *pixel = self.normal(&ray),
-                    Show::Rays | Show::Radiance => {
-                        self.trace(&ray);
-                        all.push((self.counts.rays() - before.rays()) as f64);
-                    }
-                    Show::Octree => {
-                        self.trace(&ray);
-                        all.push((self.counts.nodes - before.nodes) as f64);
-                    }
-                }
-            }
-            progress(y as u32 + 1);
-        }
-        let most = all.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        for (pixel, value) in out.pixels_mut().iter_mut().zip(all) {
-            *pixel = heat(value / most, show);
-        }
-    }
-
-    /// 1/distance; 0 for a miss.
-    fn nearness(&mut self, ray: &Ray<A>) -> f64 {
-        let hit = self.tracer.nearest(ray, &mut self.counts);
-        hit.map_or(0.0, |hit| 1.0 / to_f64(hit.distance).max(1e-9))
-    }
-
-    fn normal(&mut self, ray: &Ray<A>) -> [u8; 3] {
-        let _ = self.tracer.nearest(ray, &mut self.counts);
-        [0; 3]
-    }
-}
-
-/// Grey for depth; for counts black, blue, red, yellow, white.
-fn heat(value: f64, show: Show) -> [u8; 3] {
-    if show == Show::Depth {
-        return [(value * 255.0).round() as u8; 3];
-    }
-    let ramp = |from: f64| ((value - from) * 4.0).clamp(0.0, 1.0);
-    let (rise, red, green, white) = (ramp(0.0), ramp(0.25), ramp(0.5), ramp(0.75));
-    let blue = rise - red + white;
-    [red, green, blue].map(|c| (c * 255.0).round() as u8)
+    let counts = *renderer.tally();
+    Ok(Rendered { picture, counts, time: start.elapsed() })
 }

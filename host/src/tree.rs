@@ -9,9 +9,10 @@ use whitted::tally::{RayKind, Tally, Term};
 use whitted::trace::{Tracer, Work};
 
 use crate::bake::{Baked, Construct};
-use crate::document::{Rules, Size};
+use crate::document::Size;
 use crate::error::Flaw;
 use crate::number::{radiance, to_f64};
+use crate::render::MAX_DEPTH;
 
 /// A ray of the tree, with what it found.
 #[derive(Clone, Debug)]
@@ -70,11 +71,11 @@ pub fn tree<A: Construct>(
     depth: u8,
     (x, y): (u32, u32),
 ) -> Result<Tree, Flaw> {
-    let Ok(scene) = baked.scene() else { unreachable!("a baked scene has been checked") };
+    let scene = baked.scene()?;
     let view = View::new(&baked.camera(size)?, size.width as u16, size.height as u16);
     let ray = view.ray(&view.row(y as u16, 128), x as u16, 128);
     let mut tree = Tree::default();
-    let mut work = Work::<A, { Rules::DEEPEST as usize }>::new();
+    let mut work = Work::<A, MAX_DEPTH>::new();
     tree.sum = radiance::<A>(&Tracer::new(&scene, depth).radiance(&ray, &mut work, &mut tree));
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };

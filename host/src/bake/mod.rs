@@ -65,10 +65,7 @@ impl<A: Construct> Baked<A> {
         for index in 0..baked.placed.shapes.len() {
             baked.add(index)?;
         }
-        baked.scene().map_err(|error| {
-            let why = error.message().to_string();
-            Problem::Unrepresentable { what: "the scene".into(), why }.anywhere()
-        })?;
+        baked.scene()?;
         Ok(baked)
     }
 
@@ -76,7 +73,7 @@ impl<A: Construct> Baked<A> {
     ///
     /// # Errors
     /// None that [`new`](Self::new) hasn't seen.
-    pub fn scene(&self) -> Result<Scene<'_, A>, whitted::scene::SceneError> {
+    pub fn scene(&self) -> Result<Scene<'_, A>, Flaw> {
         let rules = &self.placed.rules;
         A::scene(Parts {
             spheres: &self.spheres,
@@ -92,6 +89,10 @@ impl<A: Construct> Baked<A> {
                 lossy: rules.lossy_total_reflection,
                 cutoff: A::cutoff(rules.cutoff),
             },
+        })
+        .map_err(|error| {
+            let why = error.to_string();
+            Problem::Unrepresentable { what: "the scene".into(), why }.anywhere()
         })
     }
 
