@@ -60,7 +60,9 @@ impl Placement {
                 log2_scale = log2_scale.min(power_below(REACH / farthest));
             }
         }
-        Self { center, log2_scale }
+        // Whole units of the new scale: coordinates with few digits keep them.
+        let scale = 2f64.powi(log2_scale);
+        Self { center: center.map(|x| (x * scale).round() / scale), log2_scale }
     }
 
     /// The scale.

@@ -42,8 +42,9 @@ pub(super) fn read(table: &Table<'_>, default: Falloff) -> Result<Light, Flaw> {
             let outer = table.number("outer", 0.1..89.9, 30.0)?;
             let inner = table.number("inner", 0.0..89.0, outer * 0.8)?;
             if inner >= outer {
+                let line = table.get("inner").map_or(table.line, |v| v.line);
                 let right = format!("smaller than \"outer\", {outer}");
-                return Err(Problem::range("inner", inner, right).at(table.line));
+                return Err(Problem::range("inner", inner, right).at(line));
             }
             LightKind::Spot { position, direction, inner, outer, falloff: falloff()? }
         }
