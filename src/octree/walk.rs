@@ -40,6 +40,7 @@ pub struct Octree<'a, A: Arithmetic> {
     words: &'a [u32],
     origin: [A::Length; 3],
     width: IdWidth,
+    shapes: u32,
     log2_side: i8,
 }
 
@@ -61,8 +62,8 @@ pub struct WalkStack<A: Arithmetic> {
 
 impl<A: Arithmetic> WalkStack<A> {
     /// Memory for walks, one after the other.
-    pub fn new() -> Self {
-        let spans = [A::Span::default(); 3];
+    pub const fn new() -> Self {
+        let spans = [A::NO_SPAN; 3];
         Self { frames: [Frame { word: 0, number: 0, exits: spans, halves: spans }; MAX_LEVELS] }
     }
 }
@@ -122,6 +123,7 @@ for_each_arithmetic! {
                     make::from_grid(o[2], log2_step),
                 ],
                 width,
+                shapes: shapes as u32,
                 log2_side: make::log2_side(cube.log2_side, log2_step),
             })
         }
@@ -143,6 +145,11 @@ for_each_arithmetic! {
 }
 
 impl<A: Arithmetic> Octree<'_, A> {
+    /// How many shapes the tree is over.
+    pub const fn shapes(&self) -> u32 {
+        self.shapes
+    }
+
     /// Shows the visitor the shapes that the ray may meet nearer than the visitor's limit, about
     /// in the order of the ray.
     #[inline(always)]
@@ -192,7 +199,7 @@ impl<A: Arithmetic> Octree<'_, A> {
         ];
         let mut exits = [spans[0].0, spans[1].0, spans[2].0];
         let mut halves = [A::half(spans[0].1), A::half(spans[1].1), A::half(spans[2].1)];
-        let zero = A::Span::default();
+        let zero = A::NO_SPAN;
         // Where the hits are, distances are as wrong as the place where the ray enters.
         let back = start - slack;
         let bound_of = |limit: A::Length| A::span(limit - back, self.log2_side);

@@ -13,6 +13,7 @@
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
+use crate::octree::Extent;
 
 /// A sphere.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +51,18 @@ for_each_arithmetic! {
                 radius: some_or!(make::radius(if radius < 0.0 { -radius } else { radius }), Size),
                 material: if radius < 0.0 { id.showing_inside() } else { id },
             })
+        }
+
+        /// The sphere itself.
+        pub const fn extent(&self, log2_step: i8) -> Extent {
+            Extent::Sphere {
+                center: [
+                    make::to_grid(self.center[0], log2_step),
+                    make::to_grid(self.center[1], log2_step),
+                    make::to_grid(self.center[2], log2_step),
+                ],
+                radius: make::grid(make::from_radius(&self.radius), log2_step),
+            }
         }
     }
 }

@@ -1,5 +1,5 @@
 //! What several tests need: single rays from plain numbers, and numbers back.
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub)]
 
 use whitted::frame::{Renderer, Settings};
 use whitted::math::Arithmetic;
