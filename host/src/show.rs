@@ -2,7 +2,7 @@
 
 use whitted::frame::Renderer;
 use whitted::tally::Counts;
-use whitted::trace::Tracer;
+use whitted::trace::{Tracer, Work};
 
 use crate::bake::Construct;
 use crate::number::to_f64;
@@ -30,6 +30,7 @@ pub(crate) fn paint<A: Construct>(
     out: &mut Picture,
     progress: &mut dyn FnMut(u32),
 ) {
+    let mut work = Work::<A, 1>::new();
     let mut values: Vec<f64> = Vec::with_capacity(out.pixels().len());
     for (y, pixels) in out.rows_mut().enumerate() {
         for (x, pixel) in pixels.iter_mut().enumerate() {
@@ -37,12 +38,12 @@ pub(crate) fn paint<A: Construct>(
             let before = *renderer.tally();
             match show {
                 Show::Depth => {
-                    let near = tracer.nearest(&ray, renderer.tally_mut());
+                    let near = tracer.nearest(&ray, &mut work, renderer.tally_mut());
                     values.push(near.map_or(0.0, |hit| 1.0 / to_f64(hit.distance).max(1e-9)));
                 }
                 Show::Normal => {
                     let color = |c| ((to_f64(c) * 0.5 + 0.5) * 255.0).round() as u8;
-                    let met = tracer.surface(&ray, renderer.tally_mut());
+                    let met = tracer.surface(&ray, &mut work, renderer.tally_mut());
                     *pixel = met.map_or([0; 3], |(_, s)| s.normal.map(color));
                 }
                 Show::Rays => {

@@ -2,17 +2,19 @@
 
 mod construct;
 mod place;
+mod shapes;
 
 pub use construct::Construct;
 pub use place::Placement;
+use shapes::Shapes;
 
 use whitted::scene::{
     Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
     PatternSpec, Rules, Scene, Shadow,
 };
-use whitted::shape::{Plane, ShapeError, Sphere};
+use whitted::shape::ShapeError;
 
-use crate::document::{self, Body, Document, LightKind, ShadowThrough, Size, dot, normalized};
+use crate::document::{self, Document, LightKind, ShadowThrough, Size};
 use crate::error::{Flaw, Problem};
 
 /// A scene in an arithmetic, owned.
@@ -21,21 +23,11 @@ pub struct Baked<A: Construct> {
     /// How the document's coordinates became these.
     pub placement: Placement,
     placed: Document,
-    spheres: Vec<Sphere<A>>,
-    planes: Vec<Plane<A>>,
+    shapes: Shapes<A>,
     materials: Vec<Material<A>>,
     lights: Vec<Light<A>>,
     ambient: Ambient<A>,
     background: Background<A>,
-    /// The document's index of each shape, by kinds as the core numbers them.
-    origins: Origins,
-}
-
-/// For each kind, in the core's order, the document's index of each of its shapes.
-#[derive(Debug, Default)]
-struct Origins {
-    spheres: Vec<usize>,
-    planes: Vec<usize>,
 }
 
 impl<A: Construct> Baked<A> {
@@ -47,24 +39,19 @@ impl<A: Construct> Baked<A> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
         let placed = placement.place(document);
         let background = match placed.background {
-            document::Background::Color(color) => A::uniform(color),
-            document::Background::Gradient { bottom, top, up } => A::gradient(up, bottom, top),
+            document::Background::Color(color) => A::new_uniform(color),
+            document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
-        let mut baked = Self {
+        let baked = Self {
             placement,
-            spheres: Vec::new(),
-            planes: Vec::new(),
+            shapes: Shapes::new(&placed)?,
             materials: materials(&placed)?,
             lights: placed.lights.iter().map(light).collect::<Result<_, _>>()?,
-            ambient: A::ambient(placed.ambient)
+            ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
             background: background.map_err(|e| refused::<A>("the background", e, None))?,
-            origins: Origins::default(),
             placed,
         };
-        for index in 0..baked.placed.shapes.len() {
-            baked.add(index)?;
-        }
         baked.scene()?;
         Ok(baked)
     }
@@ -75,9 +62,7 @@ impl<A: Construct> Baked<A> {
     /// None that [`new`](Self::new) hasn't seen.
     pub fn scene(&self) -> Result<Scene<'_, A>, Flaw> {
         let rules = &self.placed.rules;
-        A::scene(Parts {
-            spheres: &self.spheres,
-            planes: &self.planes,
+        A::new_scene(Parts {
             materials: &self.materials,
             lights: &self.lights,
             ambient: self.ambient,
@@ -87,8 +72,9 @@ impl<A: Construct> Baked<A> {
                 highlight_cosine: rules.highlight_cosine,
                 transmitters_reflect: rules.transmitters_reflect,
                 lossy: rules.lossy_total_reflection,
-                cutoff: A::cutoff(rules.cutoff),
+                cutoff: A::coefficient(rules.cutoff),
             },
+            ..self.shapes.parts()?
         })
         .map_err(|error| {
             let why = error.to_string();
@@ -103,42 +89,23 @@ impl<A: Construct> Baked<A> {
     pub fn camera(&self, size: Size) -> Result<Camera<A>, Flaw> {
         let camera = &self.placed.camera;
         let tangent = (camera.edge_angle(size).to_radians() / 2.0).tan();
-        A::camera(camera.eye, camera.look_at, camera.up, tangent)
+        A::new_camera(camera.eye, camera.look_at, camera.up, tangent)
             .map_err(|error| refused::<A>("the camera", error, None))
     }
 
     /// The document's index of the shape that has this number in the core's scene.
     pub fn origin(&self, shape: u32) -> Option<usize> {
-        let Origins { spheres, planes } = &self.origins;
-        spheres.iter().chain(planes).nth(shape as usize).copied()
+        self.shapes.origin(shape)
+    }
+
+    /// Words and levels of the octree; `None` for scenes so small that they have none.
+    pub fn tree(&self) -> Option<(usize, u8)> {
+        self.shapes.tree()
     }
 
     /// The document as it was placed.
     pub fn document(&self) -> &Document {
         &self.placed
-    }
-
-    fn add(&mut self, index: usize) -> Result<(), Flaw> {
-        let shape = &self.placed.shapes[index];
-        let refuse = |error| refused::<A>(shape.body.name(), error, Some(shape.line));
-        let material = u16::try_from(shape.material).map_err(|_| refuse(ShapeError::Material))?;
-        match &shape.body {
-            Body::Sphere { center, radius } => {
-                self.spheres.push(A::sphere(*center, *radius, material).map_err(refuse)?);
-                self.origins.spheres.push(index);
-            }
-            Body::Plane { point, normal } => {
-                let offset = normalized(*normal).map_or(0.0, |n| dot(n, *point));
-                self.planes.push(A::plane(*normal, offset, material).map_err(refuse)?);
-                self.origins.planes.push(index);
-            }
-            _ => {
-                let why = "the core has no such shape yet".to_string();
-                let what = shape.body.name().to_string();
-                return Err(Problem::Unrepresentable { what, why }.at(shape.line));
-            }
-        }
-        Ok(())
     }
 }
 
@@ -158,7 +125,7 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
                 other: u16::try_from(checker.other).map_err(|_| refuse(ShapeError::Material))?,
             }),
         };
-        A::material(&MaterialSpec {
+        A::new_material(&MaterialSpec {
             ambient: m.ambient,
             diffuse: m.diffuse,
             specular: m.specular,
@@ -199,5 +166,5 @@ fn light<A: Construct>(light: &document::Light) -> Result<Light<A>, Flaw> {
             cos_outer: outer.to_radians().cos(),
         },
     };
-    A::light(&spec).map_err(|error| refused::<A>("the light", error, Some(light.line)))
+    A::new_light(&spec).map_err(|error| refused::<A>("the light", error, Some(light.line)))
 }
