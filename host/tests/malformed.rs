@@ -221,7 +221,7 @@ fn a_file_that_may_not_be_read() {
     let place = tempfile::tempdir().unwrap();
     let file = place.path().join("secret.toml");
     std::fs::write(&file, GOOD).unwrap();
-    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0)).unwrap();
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o000)).unwrap();
     if std::fs::read(&file).is_ok() {
         eprintln!("skipped: this user may read everything");
         return;

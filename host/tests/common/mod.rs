@@ -1,5 +1,5 @@
 //! Running the command, and the scenes that lie outside the repository.
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub)]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
