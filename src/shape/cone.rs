@@ -73,7 +73,8 @@ for_each_arithmetic! {
             let (r0, r1) =
                 if inside { (-base_radius, -apex_radius) } else { (base_radius, apex_radius) };
             let largest = if r0 > r1 { r0 } else { r1 };
-            if !(r0 >= 0.0 && r1 >= 0.0) || !(largest > 0.0) {
+            let sized = r0 >= 0.0 && r1 >= 0.0 && largest > 0.0;
+            if !sized {
                 return Err(ShapeError::Size);
             }
             let _ = (point!(make, base), point!(make, apex));
@@ -171,10 +172,11 @@ impl<A: Arithmetic> Shape<A> for Cone<A> {
             let between = height <= self.half && -height <= self.half;
             if between && t > A::NO_LENGTH && t <= limit { Some(t) } else { None }
         };
-        if !inwards && !self.material.inside_only() {
-            if let Some(distance) = at(roots[0]) {
-                return Some(Meeting { distance, detail: -size });
-            }
+        if !inwards
+            && !self.material.inside_only()
+            && let Some(distance) = at(roots[0])
+        {
+            return Some(Meeting { distance, detail: -size });
         }
         at(roots[1]).map(|distance| Meeting { distance, detail: size })
     }
@@ -212,8 +214,8 @@ mod tests {
     use crate::shape::testing::{distance, ray};
 
     #[test]
-    fn forty_eight_bytes() {
-        assert_eq!(size_of::<Cone<Fixed>>(), 48);
+    fn fifty_two_bytes() {
+        assert_eq!(size_of::<Cone<Fixed>>(), 52);
     }
 
     #[test]

@@ -48,7 +48,7 @@ for_each_arithmetic! {
             };
             let mut i = 0;
             while i < 3 {
-                if !(make::from_length(cuboid.min[i]) < make::from_length(cuboid.max[i])) {
+                if make::from_length(cuboid.min[i]) >= make::from_length(cuboid.max[i]) {
                     return Err(ShapeError::Size);
                 }
                 i += 1;

@@ -151,7 +151,7 @@ for_each_arithmetic! {
                 i += 1;
             }
             let area = sqrt_f64(dot(normal, normal));
-            if !(area > size2 * 1e-6) {
+            if area <= size2 * 1e-6 {
                 return Err(ShapeError::Degenerate);
             }
             let part = 1.0 / count as f64;
@@ -400,6 +400,37 @@ mod tests {
         assert_eq!(at(1.1, 0.0, 1.0), None);
         assert_eq!(at(0.0, 0.0, -1.0), None);
         assert_eq!(distance(&POLYGON.view(&EDGES[1..]), &ray([0.0; 3], [0.0, 0.0, 1.0])), None);
+    }
+
+    /// A point of the unit circle for each number (the rational parametrisation).
+    const ROUND: [[f64; 3]; 255] = {
+        let mut corners = [[0.0; 3]; 255];
+        let mut i = 0;
+        while i < 255 {
+            let quarter = i / 64;
+            let t = (i % 64) as f64 / 64.0;
+            let (x, y) = ((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
+            corners[i] = match quarter {
+                0 => [x, y, 3.0],
+                1 => [-y, x, 3.0],
+                2 => [-x, -y, 3.0],
+                _ => [y, -x, 3.0],
+            };
+            i += 1;
+        }
+        corners
+    };
+    static MANY: Polygon<Fixed> = Polygon::<Fixed>::new(&ROUND, 4, 1);
+
+    #[test]
+    fn two_hundred_and_fifty_five_corners_in_a_static() {
+        let edges = const { Polygon::<Fixed>::edges(&ROUND) };
+        let mut all = [edges[0]; 259];
+        all[4..].copy_from_slice(&edges);
+        let at = |x, y| distance(&MANY.view(&all), &ray([x, y, 0.0], [0.0, 0.0, 1.0]));
+        assert_eq!(at(0.7, 0.7), Some(3.0));
+        assert_eq!(at(0.72, 0.72), None);
+        assert_eq!((MANY.first_edge(), MANY.edge_count()), (4, 255));
     }
 
     #[test]

@@ -135,15 +135,16 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         let c = sub(&self.center, &ray.origin);
         let t = A::project(&c, &ray.direction);
         let Some(leg2) = A::leg2(&self.radius, &c, t, &ray.direction) else { return false };
-        // The chord reaches from t − h to t + h: what of the segment 0 to limit does it cover?
+        // The chord reaches from t − h to t + h: does an end lie within the segment 0 to limit?
+        let beyond = |way: A::Length| leg2 > A::square(&self.radius, way);
         if t < A::NO_LENGTH {
-            leg2 > A::square(&self.radius, t)
+            beyond(t) && !beyond(limit - t)
         } else if t > limit {
-            leg2 > A::square(&self.radius, t - limit)
+            beyond(t - limit) && !beyond(t)
         } else {
             // The nearest point lies within the segment; so does a root, unless the segment is
             // all inside.
-            leg2 < A::square(&self.radius, t) || leg2 < A::square(&self.radius, limit - t)
+            !beyond(t) || !beyond(limit - t)
         }
     }
 
@@ -168,8 +169,8 @@ mod tests {
     const BALL: Sphere<Fixed> = Sphere::<Fixed>::new([0.0, 0.0, 5.0], 1.0, 3);
 
     #[test]
-    fn twenty_bytes_in_flash() {
-        assert_eq!(size_of::<Sphere<Fixed>>(), 20);
+    fn twenty_four_bytes_in_flash() {
+        assert_eq!(size_of::<Sphere<Fixed>>(), 24);
     }
 
     fn ray(o: [f64; 3], d: [f64; 3]) -> Ray<f64> {
@@ -197,6 +198,9 @@ mod tests {
         assert!(blocked([0.0, 0.0, -1.0], 3.5));
         assert!(blocked([0.0, 0.0, -3.0], 3.0));
         assert!(!blocked([0.0, 0.0, -3.0], 0.5));
+        assert!(!blocked([0.0, 0.0, -1.0], 0.5));
+        assert!(!blocked([0.0, 0.0, 1.0], 0.5));
+        assert!(blocked([0.0, 0.0, 1.0], 1.5));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! What several tests need: single rays from plain numbers, and numbers back.
 #![allow(dead_code, unreachable_pub)]
 
+pub mod scenes;
+
 use whitted::frame::{Renderer, Settings};
 use whitted::math::Arithmetic;
 use whitted::scene::{Camera, Scene};
