@@ -74,7 +74,8 @@ fn small_scenes_in_every_arithmetic() {
         let document = read(&place.join(name).with_extension("nff")).unwrap();
         assert_eq!((document.shapes.len(), document.lights.len()), (shapes, lights), "{name}");
         let reference = by_kind(&counts::<f64>(&document, 64));
-        for ours in [by_kind(&counts::<f32>(&document, 64)), by_kind(&counts::<Fixed>(&document, 64))]
+        for ours in
+            [by_kind(&counts::<f32>(&document, 64)), by_kind(&counts::<Fixed>(&document, 64))]
         {
             for (a, b) in ours.into_iter().zip(reference) {
                 // At this size single rays at silhouettes weigh a lot.
