@@ -10,6 +10,7 @@ pub mod nff;
 pub mod number;
 pub mod picture;
 pub mod polygon;
+pub mod pov;
 pub mod read;
 pub mod render;
 pub mod show;
