@@ -61,9 +61,8 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
     for index in 0..document.materials.len() {
         let flat = format!("F{index}");
         writeln!(out, "#declare {flat} = {}", texture(document, index))?;
-        match &document.materials[index].checker {
-            None => writeln!(out, "#declare T{index} = texture {{ {flat} }}")?,
-            Some(_) => {}
+        if document.materials[index].checker.is_none() {
+            writeln!(out, "#declare T{index} = texture {{ {flat} }}")?;
         }
     }
     for (index, material) in document.materials.iter().enumerate() {

@@ -175,3 +175,60 @@ fn parallel(light: &Light, center: Point, radius: f64) -> bool {
 fn power_below(x: f64) -> i32 {
     (x.log2().floor() as i32).clamp(-60, 60)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::{Format, parse};
+
+    fn document(light: &str, more: &str) -> Document {
+        let text = format!(
+            "[camera]\neye = [100, 20, 95]\nlook_at = [100, 20, 100]\n{light}\n\
+             [[material]]\nname = \"a\"\ndiffuse = 0.5\n\
+             [[sphere]]\ncenter = [100, 20, 100]\nradius = 1.5\n{more}"
+        );
+        parse(Format::Toml, text.as_bytes()).unwrap_or_else(|flaw| panic!("{}", flaw.problem))
+    }
+
+    fn light(text: &str) -> String {
+        format!("[[light]]\n{text}")
+    }
+
+    #[test]
+    fn shapes_fill_the_range_around_the_origin() {
+        let document = document(&light("position = [100, 30, 100]\nintensity = 8"), "");
+        let placement = Placement::filling(&document);
+        assert_eq!(placement, Placement { center: [100.0, 20.0, 100.0], log2_scale: 6 });
+        let placed = placement.place(&document);
+        assert_eq!(placed.shapes[0].body, Body::Sphere { center: [0.0; 3], radius: 96.0 });
+        assert_eq!(placed.camera.eye, [0.0, 0.0, -320.0]);
+        assert_eq!(placed.lights[0].position(), Some([0.0, 640.0, 0.0]));
+        // 64 times as far, 1/64² of the light: the intensity makes up for it.
+        assert_eq!(placed.lights[0].color, [8.0 * 4096.0; 3]);
+    }
+
+    #[test]
+    fn endless_planes_keep_the_horizon_away() {
+        let plane = "[[plane]]\npoint = [0, 18, 0]\nnormal = [0, 1, 0]\n";
+        assert_eq!(Placement::filling(&document("", plane)).log2_scale, 3);
+    }
+
+    #[test]
+    fn a_far_light_makes_the_scale_smaller() {
+        let document = document(&light("position = [100, 220, 100]\nfalloff = \"none\""), "");
+        let placement = Placement::filling(&document);
+        assert_eq!(placement.log2_scale, 2);
+        let position = placement.place(&document).lights[0].position();
+        assert_eq!(position, Some([0.0, 800.0, 0.0]));
+    }
+
+    #[test]
+    fn a_light_at_the_horizon_of_all_is_directional() {
+        let document = document(&light("position = [100, 31643, 100]\nintensity = 1e9"), "");
+        let placement = Placement::filling(&document);
+        assert_eq!(placement.log2_scale, 6);
+        let light = placement.place(&document).lights[0];
+        assert!(matches!(light.kind, LightKind::Directional { direction } if direction[1] < 0.0));
+        assert!((light.color[0] - 1e9 / 31623f64.powi(2)).abs() < 1e-9);
+    }
+}

@@ -59,13 +59,19 @@ fn plural(count: usize, name: &str) -> String {
 fn fits<A: Construct>(document: &Document, file: &Path) -> Result<(), Failure> {
     match Baked::<A>::new(document) {
         Err(flaw) => line(A::NAME, format_args!("no: {}", flaw.of(file))),
-        Ok(baked) if baked.placement == Placement::IDENTITY => {
-            line(A::NAME, format_args!("yes, as it is"))
-        }
         Ok(baked) => {
-            let center = baked.placement.center.map(|x| x.to_string()).join(" ");
-            let power = baked.placement.log2_scale;
-            line(A::NAME, format_args!("yes, scaled by 2^{power} around {center}"))
+            let placed = match baked.placement {
+                Placement::IDENTITY => "as it is".to_string(),
+                Placement { center, log2_scale } => {
+                    let center = center.map(|x| x.to_string()).join(" ");
+                    format!("scaled by 2^{log2_scale} around {center}")
+                }
+            };
+            let tree = match baked.tree() {
+                Some((words, levels)) => format!("octree {} bytes, {levels} levels", 4 * words),
+                None => "no octree".to_string(),
+            };
+            line(A::NAME, format_args!("yes, {placed}; {tree}"))
         }
     }
 }
