@@ -124,7 +124,9 @@ fn paint_in<A: Construct>(
 
 /// The picture, as large as the terminal lets it be with room for the text below.
 fn preview(picture: &Picture) -> String {
-    let (columns, lines) = terminal_size::terminal_size().map_or((80, 24), |(w, h)| (w.0, h.0));
+    // A terminal that doesn't know its size says 0.
+    let known = terminal_size::terminal_size().filter(|(w, h)| w.0 > 0 && h.0 > 0);
+    let (columns, lines) = known.map_or((80, 24), |(w, h)| (w.0, h.0));
     picture.to_terminal(columns.into(), lines.saturating_sub(5).max(10).into())
 }
 
