@@ -39,7 +39,7 @@ impl<A: Arithmetic> Path<A> {
 /// Traces rays in a scene, to a depth that its memory was made for.
 #[derive(Debug)]
 pub struct Tracer<'a, A: Arithmetic> {
-    scene: &'a Scene<'a, A>,
+    pub(super) scene: &'a Scene<'a, A>,
     depth: u8,
 }
 
