@@ -72,6 +72,7 @@ macro_rules! float {
             type Span = $f;
 
             const NAME: &'static str = stringify!($f);
+            const REFINE: bool = false;
             const FAR: $f = 1e9;
             const NO_LENGTH: $f = 0.0;
             const NO_UNIT: $f = 0.0;
@@ -166,6 +167,11 @@ macro_rules! float {
                 let f = [c[0] - t * d[0], c[1] - t * d[1], c[2] - t * d[2]];
                 let leg2 = r.r * r.r - Self::project(&f, &f);
                 if leg2 > 0.0 { Some(leg2) } else { None }
+            }
+
+            #[inline(always)]
+            fn ahead(_: &FloatRadius<$f>, c: &[$f; 3], t: $f, d: &[$f; 3]) -> $f {
+                Self::project(c, d) - t * Self::dot(d, d)
             }
 
             #[inline(always)]

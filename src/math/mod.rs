@@ -122,6 +122,9 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
 
     /// What the `--arith` option and baked files call this arithmetic.
     const NAME: &'static str;
+    /// Whether a hit with a plane is worth a step of Newton's: whether products and quotients are
+    /// less exact than positions.
+    const REFINE: bool;
     /// A hit at this distance or beyond is a miss.
     const FAR: Self::Length;
     /// Zero length.
@@ -178,8 +181,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     #[inline(always)]
     fn settle(_r: &Self::Radius, _n: &mut [Self::Unit; 3], _p: &mut [Self::Length; 3]) {}
     /// The origin of a ray that leaves the surface at `p`, moved along `n` by what the position
-    /// may be wrong. In fixed point that is a few steps and what the distance `t` adds, over which
-    /// it was reached and since when it wasn't put back on the surface.
+    /// may be wrong. In fixed point that is a few steps and what the distance `t` adds, over which it
+    /// was reached.
     fn leave(p: &[Self::Length; 3], n: &[Self::Unit; 3], t: Self::Length) -> [Self::Length; 3];
 
     /// The radius itself.
@@ -193,6 +196,15 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
         t: Self::Length,
         d: &[Self::Unit; 3],
     ) -> Option<Self::Leg2>;
+    /// How far beyond `t` the ray is nearest to `c` after all: `d·(c − t·d)`, which is null but for
+    /// what d is short of a unit vector and t was rounded. For rays that [`leg2`](Self::leg2) has
+    /// found to come within r.
+    fn ahead(
+        r: &Self::Radius,
+        c: &[Self::Length; 3],
+        t: Self::Length,
+        d: &[Self::Unit; 3],
+    ) -> Self::Length;
     /// The root of a squared leg.
     fn leg(r: &Self::Radius, leg2: Self::Leg2) -> Self::Length;
     /// The square of a length whose absolute value is no larger than 2·`r`.

@@ -198,8 +198,7 @@ impl<A: Arithmetic> Shape<A> for Cone<A> {
             self.axis
         };
         let dn = A::dot(&ray.direction, &outward);
-        let surface = turned_to(&outward, dn, meeting.detail > A::NO_LENGTH);
-        Surface { carried: meeting.distance, ..surface }
+        turned_to(&outward, dn, meeting.detail > A::NO_LENGTH)
     }
 
     #[inline(always)]
@@ -236,7 +235,7 @@ mod tests {
         let r = ray([0.5, 0.0, -3.0], up);
         let m = c.nearest(&r, &(), false, 9.0).unwrap();
         assert!((m.distance - 3.5).abs() < 1e-9);
-        let s = c.surface(&r, &m, &[0.5, 0.0, 0.5]);
+        let s = c.surface(&r, &m, &mut [0.5, 0.0, 0.5]);
         let half = 0.5f64.sqrt();
         assert!(s.behind && (s.normal[0] + half).abs() < 1e-9 && (s.cosine - half).abs() < 1e-9);
         assert!(near(

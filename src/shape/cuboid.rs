@@ -151,14 +151,7 @@ impl<A: Arithmetic> Shape<A> for Cuboid<A> {
             1 => [A::NO_UNIT, back, A::NO_UNIT],
             _ => [A::NO_UNIT, A::NO_UNIT, back],
         };
-        Surface {
-            geometric: normal,
-            normal,
-            cosine,
-            behind,
-            smooth: false,
-            carried: A::NO_LENGTH,
-        }
+        Surface { geometric: normal, normal, cosine, behind, smooth: false }
     }
 
     #[inline(always)]
@@ -188,12 +181,12 @@ mod tests {
                 let inside = cuboid.nearest(&ray(o, d), &(), false, 100.0).unwrap();
                 let size = (axis + 1) as f64;
                 assert_eq!(inside.distance, size - sign * o[axis]);
-                let s = cuboid.surface(&ray(o, d), &inside, &o);
+                let s = cuboid.surface(&ray(o, d), &inside, &mut { o });
                 assert!(s.behind && s.cosine == 1.0 && s.normal[axis] == -sign);
                 o[axis] = -5.0 * sign;
                 let hit = cuboid.nearest(&ray(o, d), &(), false, 100.0).unwrap();
                 assert_eq!(hit.distance, 5.0 - size);
-                let s = cuboid.surface(&ray(o, d), &hit, &o);
+                let s = cuboid.surface(&ray(o, d), &hit, &mut { o });
                 assert!(!s.behind && s.cosine == 1.0 && s.normal[axis] == -sign);
                 o[axis] = 5.0 * sign;
                 assert_eq!(distance(&cuboid, &ray(o, d)), None);

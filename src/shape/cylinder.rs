@@ -175,7 +175,7 @@ mod tests {
         let r = ray([0.0, 0.0, -0.75], [0.6, 0.0, 0.8]);
         let m = c.nearest(&r, &(), false, 9.0).unwrap();
         assert!((m.distance - 1.0 / 0.6).abs() < 1e-12);
-        let s = c.surface(&r, &m, &f64::along(&r.origin, m.distance, &r.direction));
+        let s = c.surface(&r, &m, &mut f64::along(&r.origin, m.distance, &r.direction));
         assert!(s.behind && (s.normal[0] + 1.0).abs() < 1e-12 && (s.cosine - 0.6).abs() < 1e-12);
     }
 

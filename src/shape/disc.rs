@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(at([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]), Some(1.0));
         let seen = ray([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]);
         let m = disc.nearest(&seen, &(), false, 9.0).unwrap();
-        let s = disc.surface(&seen, &m, &[0.0, 0.0, 2.0]);
+        let s = disc.surface(&seen, &m, &mut [0.0, 0.0, 2.0]);
         assert!(s.behind && s.normal == [0.0, 0.0, 1.0] && s.cosine == 1.0);
     }
 }

@@ -89,9 +89,6 @@ pub struct Surface<A: Arithmetic> {
     pub behind: bool,
     /// Whether the two normals may differ.
     pub smooth: bool,
-    /// The distance along the ray whose rounding the point still carries: null where the point
-    /// has been put back on the surface.
-    pub carried: A::Length,
 }
 
 /// What tracing asks of every primitive.
@@ -175,14 +172,7 @@ pub(crate) fn turned_to<A: Arithmetic>(
     let normal = if behind { crate::math::neg(outward) } else { *outward };
     let cosine = if behind { dn } else { -dn };
     let cosine = if cosine > A::NO_UNIT { cosine } else { A::NO_UNIT };
-    Surface {
-        geometric: normal,
-        normal,
-        cosine,
-        behind,
-        smooth: false,
-        carried: A::NO_LENGTH,
-    }
+    Surface { geometric: normal, normal, cosine, behind, smooth: false }
 }
 
 /// The distance to a plane that lies `left` ahead and is neared with the speed `slope`, and that

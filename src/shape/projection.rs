@@ -128,12 +128,27 @@ impl<A: Arithmetic> Projection<A> {
     #[inline(always)]
     pub(crate) fn crossing(&self, axis: u8, ray: &Ray<A>, limit: A::Length) -> Option<Crossing<A>> {
         let d = cycled(&ray.direction, axis);
-        let slope = self.slope(&d);
+        let speed = self.slope(&d);
         let o = cycled(&ray.origin, axis);
         let left =
             self.offset - o[0] - A::scale(o[1], self.slopes[0]) - A::scale(o[2], self.slopes[1]);
-        let (t, slope) = meets_plane::<A>(left, slope, limit)?;
-        let point = [o[1] + A::scale(t, d[1]), o[2] + A::scale(t, d[2])];
+        let (mut t, slope) = meets_plane::<A>(left, speed, limit)?;
+        let at = |t: A::Length| [o[1] + A::scale(t, d[1]), o[2] + A::scale(t, d[2])];
+        let mut point = at(t);
+        if A::REFINE {
+            // The slope is a sum of rounded products, the point is exact to a step: how far it is
+            // from the plane tells by how much the distance is wrong.
+            let height = o[0] + A::scale(t, d[0]);
+            let left = self.offset
+                - height
+                - A::scale(point[0], self.slopes[0])
+                - A::scale(point[1], self.slopes[1]);
+            let ahead = (left > A::NO_LENGTH) == (speed > A::NO_UNIT);
+            let off = if left > A::NO_LENGTH { left } else { -left };
+            let step = A::ratio(off, slope);
+            t = if ahead { t + step } else { t - step };
+            point = at(t);
+        }
         Some(Crossing { distance: t, point, slope })
     }
 

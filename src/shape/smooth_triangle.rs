@@ -124,9 +124,9 @@ mod tests {
         let r = ray([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
         let m = t.nearest(&r, &(), false, 9.0).unwrap();
         // Halfway between the first two corners; the corners' order makes this the back.
-        let s = t.surface(&r, &m, &[1.0, 0.0, 1.0]);
+        let s = t.surface(&r, &m, &mut [1.0, 0.0, 1.0]);
         assert!(s.behind && s.normal == [0.0, 0.0, -1.0] && s.cosine == 1.0);
-        let s = t.surface(&r, &m, &[2.0, 0.0, 1.0]);
+        let s = t.surface(&r, &m, &mut [2.0, 0.0, 1.0]);
         assert!((s.normal[0] - 0.6).abs() < 1e-12 && (s.cosine - 0.8).abs() < 1e-12);
     }
 
@@ -136,7 +136,7 @@ mod tests {
         let t = SmoothTriangle::<f64>::new(CORNERS, n, 0);
         let r = ray([0.0, 0.5, 1.4], [0.8, 0.0, -0.6]);
         let m = t.nearest(&r, &(), false, 9.0).unwrap();
-        let s = t.surface(&r, &m, &[0.5, 0.5, 1.0]);
+        let s = t.surface(&r, &m, &mut [0.5, 0.5, 1.0]);
         assert_eq!(s.normal, [0.0, 0.0, 1.0]);
         assert!((s.cosine - 0.6).abs() < 1e-12);
     }

@@ -106,6 +106,7 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         let c = sub(&self.center, &ray.origin);
         let t = A::project(&c, &ray.direction);
         let leg2 = A::leg2(&self.radius, &c, t, &ray.direction)?;
+        let t = if A::REFINE { t + A::ahead(&self.radius, &c, t, &ray.direction) } else { t };
         let half = A::leg(&self.radius, leg2);
         let near = t - half;
         let (distance, detail) = if near > A::NO_LENGTH && !inwards && !self.material.inside_only()
@@ -210,7 +211,7 @@ mod tests {
         let m = ball.nearest(&ray([0.0; 3], [0.0, 0.0, 1.0]), &(), false, 100.0).unwrap();
         assert_eq!(m.distance, 6.0);
         let r = ray([0.0; 3], [0.0, 0.0, 1.0]);
-        let s = ball.surface(&r, &m, &[0.0, 0.0, 6.0]);
+        let s = ball.surface(&r, &m, &mut [0.0, 0.0, 6.0]);
         assert!(s.behind);
         assert_eq!(s.normal, [0.0, 0.0, -1.0]);
     }

@@ -148,8 +148,8 @@ impl<A: Arithmetic, S: Shape<A>> Probe<A> for S {
         Shape::occludes(self, ray, &A::coarse(&ray.origin, &ray.direction), false, limit)
     }
     fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>) -> Surface<A> {
-        let p = A::along(&ray.origin, meeting.distance, &ray.direction);
-        Shape::surface(self, ray, meeting, &p)
+        let mut p = A::along(&ray.origin, meeting.distance, &ray.direction);
+        Shape::surface(self, ray, meeting, &mut p)
     }
     fn flat(&self) -> bool {
         S::FLAT

@@ -190,7 +190,7 @@ mod tests {
         assert_eq!(distance(&t, &ray([-0.1, 0.5, 0.0], up)), None);
         assert_eq!(distance(&t, &ray([0.5, 0.5, 2.0], up)), None);
         let r = ray([0.5, 0.5, 0.0], up);
-        let s = t.surface(&r, &t.nearest(&r, &(), false, 9.0).unwrap(), &[0.5, 0.5, 1.0]);
+        let s = t.surface(&r, &t.nearest(&r, &(), false, 9.0).unwrap(), &mut [0.5, 0.5, 1.0]);
         assert!(s.behind && s.normal == [0.0, 0.0, -1.0] && s.cosine == 1.0);
         assert_eq!(t.material().index(), 7);
     }

@@ -136,7 +136,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
 
         let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         let outside = Ray {
-            origin: A::leave(&p, &surface.geometric, surface.carried),
+            origin: A::leave(&p, &surface.geometric, hit.distance),
             direction: mirror,
             leaving: Leaving { shape: hit.shape, inwards: surface.behind },
         };
@@ -169,7 +169,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
                     }
                     if largest(&weight) >= rules.cutoff {
                         let ray = Ray {
-                            origin: A::leave(&p, &neg(&surface.geometric), surface.carried),
+                            origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
                             leaving: Leaving { shape: hit.shape, inwards: !surface.behind },
                         };

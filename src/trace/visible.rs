@@ -163,7 +163,7 @@ fn filtered<A: Arithmetic, T: Tally>(
             tally.hit::<A>(RayKind::Shadow, hit.shape, limit);
             return None;
         }
-        ray.origin = A::leave(&p, &neg(&surface.geometric), surface.carried);
+        ray.origin = A::leave(&p, &neg(&surface.geometric), hit.distance);
         ray.leaving = Leaving { shape: hit.shape, inwards: !surface.behind };
         left = left - hit.distance;
     }

@@ -183,13 +183,13 @@ fn steps(x: I16F16, s: u8) -> i32 {
 }
 
 /// By how many steps of 2^(s − 16) a triangle or polygon is larger than it is, so that meshes
-/// have no cracks. A hit is off by a step of a length for each unit of the way and four for the
-/// products, the plane by a quarter of a step at the corners, all that over the slope; two steps
-/// for the forms' coefficients, one for the rounding of both coordinates. Never more than 1024:
-/// a thirtieth of the shape; so at a glance there can be cracks, from a slope of about
-/// 1/64 (small shapes, tens of their size away) down.
+/// have no cracks. A hit is off by four steps of a length for the products, the plane by a quarter
+/// of a step at the corners, all that over the slope; two steps for the forms' coefficients, one
+/// for the rounding of both coordinates. Never more than 1024: a thirtieth of the shape; so at a
+/// glance there can be cracks, from a slope of about 1/64 (small shapes, tens of their size away)
+/// down.
 #[inline(always)]
-fn slack_steps(t: I16F16, slope: Unit, s: u8) -> i32 {
+fn slack_steps(slope: Unit, s: u8) -> i32 {
     let off = (4 >> s) + 1;
     // 1/slope ≤ 2^(z − 14)
     let (_, z) = root::normalize(slope.to_bits() as u32 | 1);
@@ -265,6 +265,7 @@ impl Arithmetic for Fixed {
     type Span = i32;
 
     const NAME: &'static str = "fixed";
+    const REFINE: bool = true;
     const FAR: I16F16 = I16F16::from_bits(FAR);
     const NO_LENGTH: I16F16 = I16F16::ZERO;
     const NO_UNIT: Unit = Unit::ZERO;
@@ -358,18 +359,13 @@ impl Arithmetic for Fixed {
         let p = (bits >> 13)
             .wrapping_mul(y_q17)
             .wrapping_add((bits & 0x1fff).wrapping_mul(y_q17) >> 13);
-        let quotient = if z <= 19 {
-            (p >> (19 - z)) as i32
+        if z <= 19 {
+            I16F16::from_bits((p >> (19 - z)) as i32)
         } else if p >> (26 + 19 - z) != 0 {
-            return Self::FAR;
+            Self::FAR
         } else {
-            (p << (z - 19)) as i32
-        };
-        // That is good to 17 bits. What is left of a is small; its quotient makes the sum good to
-        // a step or two: neighbours in a mesh then meet where they should.
-        let rest = a.to_bits().wrapping_sub(length_times_unit(quotient, b.to_bits()));
-        let rest = rest.wrapping_mul((y_q17 >> 5) as i32) >> (27 - z.min(27));
-        I16F16::from_bits(quotient.wrapping_add(rest))
+            I16F16::from_bits((p << (z - 19)) as i32)
+        }
     }
 
     #[inline(always)]
@@ -411,9 +407,9 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn leave(p: &[I16F16; 3], n: &[Unit; 3], t: I16F16) -> [I16F16; 3] {
-        // The roundings of a few products; a direction is 2⁻¹⁸ wrong and a root as much, together
-        // 2⁻¹⁷ of the way, doubled.
-        let step = 6 + (t.to_bits() >> 16);
+        // The roundings of a few products, a neighbour's among them; a direction is 2⁻¹⁸ wrong and
+        // a root as much, together 2⁻¹⁷ of the way, doubled.
+        let step = 8 + (t.to_bits() >> 16);
         let f = |p: I16F16, n: Unit| {
             I16F16::from_bits(p.to_bits().wrapping_add(n.to_bits().wrapping_mul(step) >> 17))
         };
@@ -431,19 +427,38 @@ impl Arithmetic for Fixed {
         let (t, s) = (t.to_bits(), r.shift & 31);
         let m = r.mantissa as u32;
         let mut rest = m.wrapping_mul(m);
+        let mut correction = 0i32;
         for i in 0..3 {
             let f = c[i].to_bits().wrapping_sub(length_times_unit(t, d[i].to_bits()));
             if f.wrapping_add(bound) as u32 >= (bound as u32) << 1 {
                 return None;
             }
-            let f = f >> s;
-            let square = f.wrapping_mul(f) as u32;
+            // (2ˢh + l)² ≈ 2²ˢ(h² + 2hl/2ˢ)
+            let high = f >> s;
+            correction = correction.wrapping_add(high.wrapping_mul(f.wrapping_sub(high << s)));
+            let square = high.wrapping_mul(high) as u32;
             if square >= rest {
                 return None;
             }
             rest -= square;
         }
-        Some(rest)
+        // What the shift drops is positive: h is a floor, so hl may have either sign.
+        let correction = correction >> s << 1;
+        let rest = (rest as i64 - i64::from(correction)) as i64;
+        if rest <= 0 { None } else { Some(rest as u32) }
+    }
+
+    #[inline(always)]
+    fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> I16F16 {
+        // |c − t·d| is below r, sixteen bits, and |d| fifteen: the sum of products fits
+        let s = r.shift & 31;
+        let mut sum = 0i32;
+        for i in 0..3 {
+            let d = d[i].to_bits();
+            let f = c[i].to_bits().wrapping_sub(length_times_unit(t.to_bits(), d));
+            sum = sum.wrapping_add((f >> s).wrapping_mul(d >> 2));
+        }
+        I16F16::from_bits((sum >> 15) << s)
     }
 
     #[inline(always)]
@@ -507,7 +522,7 @@ impl Arithmetic for Fixed {
         form: &FixedBarycentric,
         x: I16F16,
         y: I16F16,
-        t: I16F16,
+        _: I16F16,
         slope: Unit,
     ) -> Option<(Weight, Weight)> {
         let s = form.shift & 31;
@@ -516,7 +531,7 @@ impl Arithmetic for Fixed {
             return None;
         }
         // weighed by the largest coefficients (2¹⁴ and less)
-        let slack = slack_steps(t, slope, s) << 14;
+        let slack = slack_steps(slope, s) << 14;
         let value = |form: &[i16; 2]| {
             (form[0] as i32).wrapping_mul(x).wrapping_add((form[1] as i32).wrapping_mul(y))
         };
@@ -569,12 +584,12 @@ impl Arithmetic for Fixed {
         outline: &FixedOutline,
         x: I16F16,
         y: I16F16,
-        t: I16F16,
+        _: I16F16,
         slope: Unit,
     ) -> Option<FixedSpot> {
         let s = outline.shift & 31;
         let (x, y) = (steps(x, s), steps(y, s));
-        let slack = slack_steps(t, slope, s);
+        let slack = slack_steps(slope, s);
         if magnitude(x) as i32 > outline.half[0] as i32 + slack
             || magnitude(y) as i32 > outline.half[1] as i32 + slack
         {
