@@ -16,7 +16,8 @@ const MASK: u32 = 0x00FF_FFFF;
 /// Adds up the ticks between [`before`](Watch::before) and [`after`](Watch::after). What lies
 /// between them may take at most 2²⁴ ticks, 671 million instructions at 25 MHz.
 pub(crate) struct Counter {
-    syst: SYST,
+    /// Nobody else may set it to something else.
+    _syst: SYST,
     start: u32,
     ticks: u64,
 }
@@ -27,7 +28,7 @@ impl Counter {
         syst.set_reload(MASK);
         syst.clear_current();
         syst.enable_counter();
-        Self { syst, start: 0, ticks: 0 }
+        Self { _syst: syst, start: 0, ticks: 0 }
     }
 
     /// The ticks so far, and back to none.

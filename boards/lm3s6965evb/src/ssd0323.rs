@@ -28,8 +28,8 @@ const DISPLAY_ON: u8 = 0xAF;
 /// What can go wrong: the bus or the pin.
 #[derive(Debug)]
 pub(crate) enum Error<S, P> {
-    Spi(#[expect(dead_code, reason = "shown by Debug")] S),
-    Pin(#[expect(dead_code, reason = "shown by Debug")] P),
+    Spi(S),
+    Pin(P),
 }
 
 /// The display behind an SPI device and a data/command pin.

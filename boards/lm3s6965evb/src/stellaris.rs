@@ -42,7 +42,7 @@ pub(crate) struct Peripherals {
     pub(crate) ssi: Ssi,
     /// C7: data (high) or command (low).
     pub(crate) data_command: Pin,
-    /// D0: selects the display when low.
+    /// A3: selects the display when low.
     pub(crate) select: Pin,
 }
 
@@ -56,7 +56,10 @@ impl Peripherals {
         SYSTEM_CONTROL.set(RCGC2, 1 << 0 | 1 << 2 | 1 << 3);
         // A clock takes three cycles to arrive.
         SYSTEM_CONTROL.read(RCGC2);
-        Self { ssi: Ssi::new(), data_command: Pin::new(GPIO_C, 7), select: Pin::new(GPIO_D, 0) }
+        // D0 selects the card slot on the same bus when low. (The emulator selects the display
+        // with the same line, when high, and knows nothing of A3.)
+        Pin::new(GPIO_D, 0).write(1);
+        Self { ssi: Ssi::new(), data_command: Pin::new(GPIO_C, 7), select: Pin::new(GPIO_A, 3) }
     }
 }
 
@@ -122,8 +125,9 @@ impl Ssi {
         const DEN: usize = 0x51C;
         GPIO_A.set(AFSEL, 1 << 2 | 1 << 5);
         GPIO_A.set(DEN, 1 << 2 | 1 << 5);
+        // Off while it is set up.
         SSI0.write(Self::CR1, 0);
-        // 12.5 MHz / 2; the display takes up to 4 MHz at 3.3 V, so / 4.
+        // The display takes up to 4 MHz: a quarter of the core's 12.5 MHz.
         SSI0.write(Self::CPSR, 4);
         SSI0.write(Self::CR0, 8 - 1);
         SSI0.write(Self::CR1, 1 << 1);
