@@ -51,6 +51,7 @@ macro_rules! float {
             const NO_WEIGHT: $f = 0.0;
             const FULL: $f = 1.0;
             const BLACK: $f = 0.0;
+            const CUTOFF: $f = 1.0 / 255.0;
 
             #[inline(always)]
             fn along(o: &[$f; 3], t: $f, d: &[$f; 3]) -> [$f; 3] {
@@ -187,6 +188,11 @@ macro_rules! float {
             #[inline(always)]
             fn weight(a: $f, b: $f) -> $f {
                 a * b
+            }
+
+            #[inline(always)]
+            fn quotient(a: $f, b: $f) -> $f {
+                if b > 0.0 { a / b } else { 0.0 }
             }
 
             #[inline(always)]

@@ -27,6 +27,7 @@ pub(crate) use constant::{cross as cross_f64, unit_vector as unit_f64};
 pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
 pub use fixed::{FixedInverse, FixedRadius};
 pub use float::{FloatBarycentric, FloatEta, FloatRadius};
+pub(crate) use root::normalize as normalize_u32;
 pub use root::sqrt_f32;
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
 
@@ -39,7 +40,8 @@ use core::ops::{Add, Neg, Sub};
 /// A triple of channels, red first.
 pub type Rgb<T> = [T; 3];
 
-/// What every number here can do by itself: be added, negated and compared.
+/// What every number here can do by itself: be added, negated and compared. (Conversion to `f64`
+/// is for reports; no kernel uses it.)
 pub trait Number:
     Copy
     + Debug
@@ -49,6 +51,7 @@ pub trait Number:
     + Add<Output = Self>
     + Sub<Output = Self>
     + Neg<Output = Self>
+    + Into<f64>
     + Send
     + Sync
     + 'static
@@ -64,6 +67,7 @@ impl<T> Number for T where
         + Add<Output = T>
         + Sub<Output = T>
         + Neg<Output = T>
+        + Into<f64>
         + Send
         + Sync
         + 'static
@@ -121,6 +125,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     const FULL: Self::Weight;
     /// Radiance 0.
     const BLACK: Self::Radiance;
+    /// 1/255: a ray that can't change an 8-bit pixel isn't worth sending.
+    const CUTOFF: Self::Weight;
 
     /// `o + t·d`.
     fn along(o: &[Self::Length; 3], t: Self::Length, d: &[Self::Unit; 3]) -> [Self::Length; 3];
@@ -205,6 +211,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
 
     /// `a·b` of coefficients, the product no larger than 16.
     fn weight(a: Self::Weight, b: Self::Weight) -> Self::Weight;
+    /// `a/b`, for a light's cone: 0 ≤ a ≤ b.
+    fn quotient(a: Self::Weight, b: Self::Weight) -> Self::Weight;
     /// A component of a unit vector as a coefficient.
     fn weight_of(u: Self::Unit) -> Self::Weight;
     /// `cos^n` for a cosine in 0 to 1.

@@ -67,6 +67,8 @@ pub struct Surface<A: Arithmetic> {
     /// Whether the ray came from behind: from inside a closed shape, from the side that a flat
     /// shape's normal doesn't point to.
     pub behind: bool,
+    /// Whether the two normals may differ.
+    pub smooth: bool,
 }
 
 /// What tracing asks of every primitive.
@@ -138,5 +140,11 @@ impl MaterialId {
 pub(crate) fn turned<A: Arithmetic>(outward: &[A::Unit; 3], dn: A::Unit) -> Surface<A> {
     let behind = dn > A::NO_UNIT;
     let normal = if behind { crate::math::neg(outward) } else { *outward };
-    Surface { geometric: normal, normal, cosine: if behind { dn } else { -dn }, behind }
+    Surface {
+        geometric: normal,
+        normal,
+        cosine: if behind { dn } else { -dn },
+        behind,
+        smooth: false,
+    }
 }

@@ -64,6 +64,12 @@ for_each_arithmetic! {
     }
 }
 
+impl<A: Arithmetic> Plane<A> {
+    pub(crate) const fn material_id(&self) -> MaterialId {
+        self.material
+    }
+}
+
 impl<A: Arithmetic> Shape<A> for Plane<A> {
     const FLAT: bool = true;
 

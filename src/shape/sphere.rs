@@ -55,6 +55,10 @@ for_each_arithmetic! {
 }
 
 impl<A: Arithmetic> Sphere<A> {
+    pub(crate) const fn material_id(&self) -> MaterialId {
+        self.material
+    }
+
     /// The centre.
     pub fn center(&self) -> [A::Length; 3] {
         self.center

@@ -113,15 +113,18 @@ fn magnitude(x: i32) -> u32 {
 /// 1/|v| = Y·2^(half − down − 16), Y in Q29 from 1 to 2.
 #[inline(always)]
 fn direction(v: &[i32; 3]) -> ([Unit; 3], u32, u32, i32, i32) {
-    // Fifteen bits for the largest component: three squares then fit a word.
+    // Fifteen bits for the largest component, so that three squares fit a word, and five more
+    // for the first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
     let (_, z) = root::normalize(magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2]) | 1);
     let down = 17 - z as i32;
-    let round = if down > 0 { 1 << (down - 1) } else { 0 };
-    let short = |x: i32| {
-        let y = shift(x.wrapping_add(round), -down);
-        y.wrapping_mul(y) as u32
-    };
-    let square = short(v[0]).wrapping_add(short(v[1])).wrapping_add(short(v[2])) | 1;
+    let (mut square, mut correction) = (0u32, 0i32);
+    for x in v {
+        let x = shift(*x, 5 - down);
+        let (high, low) = (x >> 5, x & 31);
+        square = square.wrapping_add(high.wrapping_mul(high) as u32);
+        correction = correction.wrapping_add(high.wrapping_mul(low));
+    }
+    let square = square.wrapping_add((correction >> 4) as u32) | 1;
     let (m, z) = normalize_even(square);
     let y_q29 = reciprocal_root_q29(m);
     let half = (z >> 1) as i32;
@@ -176,6 +179,7 @@ impl Arithmetic for Fixed {
     const NO_WEIGHT: Weight = Weight::ZERO;
     const FULL: Weight = Weight::ONE;
     const BLACK: I16F16 = I16F16::ZERO;
+    const CUTOFF: Weight = Weight::from_bits(64);
 
     #[inline(always)]
     fn along(o: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> [I16F16; 3] {
@@ -423,6 +427,13 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn weight(a: Weight, b: Weight) -> Weight {
         Weight::from_bits(((a.to_bits() as u32).wrapping_mul(b.to_bits() as u32) >> 14) as i32)
+    }
+
+    #[inline(always)]
+    fn quotient(a: Weight, b: Weight) -> Weight {
+        // a ≤ b ≤ 2 here: a << 14 fits
+        let quotient = (a.to_bits() << 14).checked_div(b.to_bits()).unwrap_or(0);
+        Weight::from_bits(quotient)
     }
 
     #[inline(always)]

@@ -1,0 +1,178 @@
+//! The picture as an image of embedded-graphics: the one file that knows it.
+
+use crate::frame::{Dither, FrameError, Output, Pixel, Renderer, Settings};
+use crate::frame::{Gray1, Gray4, Gray8, Rgb565, Rgb888};
+use crate::math::{Arithmetic, Rgb};
+use crate::scene::{Camera, Scene};
+use crate::tally::Tally;
+use crate::trace::Work;
+use core::cell::Cell;
+use core::marker::PhantomData;
+use embedded_graphics_core::draw_target::DrawTarget;
+use embedded_graphics_core::geometry::{OriginDimensions, Point, Size};
+use embedded_graphics_core::image::ImageDrawable;
+use embedded_graphics_core::pixelcolor as eg;
+use embedded_graphics_core::pixelcolor::PixelColor;
+use embedded_graphics_core::primitives::Rectangle;
+
+/// A colour of embedded-graphics that a picture can be drawn in.
+pub trait Color: PixelColor {
+    /// The pixel format behind it.
+    type Pixel: Pixel;
+
+    /// The colour of a pixel.
+    fn from_pixel(pixel: Self::Pixel) -> Self;
+}
+
+impl Color for eg::Rgb565 {
+    type Pixel = Rgb565;
+
+    #[inline(always)]
+    fn from_pixel(Rgb565(bits): Rgb565) -> Self {
+        Self::new((bits >> 11) as u8, (bits >> 5 & 63) as u8, (bits & 31) as u8)
+    }
+}
+
+impl Color for eg::Rgb888 {
+    type Pixel = Rgb888;
+
+    #[inline(always)]
+    fn from_pixel(Rgb888([r, g, b]): Rgb888) -> Self {
+        Self::new(r, g, b)
+    }
+}
+
+impl Color for eg::Gray8 {
+    type Pixel = Gray8;
+
+    #[inline(always)]
+    fn from_pixel(Gray8(level): Gray8) -> Self {
+        Self::new(level)
+    }
+}
+
+impl Color for eg::Gray4 {
+    type Pixel = Gray4;
+
+    #[inline(always)]
+    fn from_pixel(Gray4(level): Gray4) -> Self {
+        Self::new(level)
+    }
+}
+
+impl Color for eg::BinaryColor {
+    type Pixel = Gray1;
+
+    #[inline(always)]
+    fn from_pixel(Gray1(level): Gray1) -> Self {
+        if level != 0 { Self::On } else { Self::Off }
+    }
+}
+
+/// A ray-traced picture that embedded-graphics draws like any other image:
+/// `Image::new(&picture, position).draw(&mut display)`.
+///
+/// Only what the target's bounding box shows is traced, in one contiguous fill.
+pub struct Picture<'a, A: Arithmetic, C, const MAX_DEPTH: usize, T = ()> {
+    /// Drawing borrows the picture, tracing changes the working memory: it is taken out for the
+    /// time and put back.
+    renderer: Cell<Option<Renderer<'a, A, MAX_DEPTH, T>>>,
+    settings: Settings,
+    output: Output,
+    color: PhantomData<C>,
+}
+
+impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize> Picture<'a, A, C, MAX_DEPTH> {
+    /// A picture of a scene in sRGB. `samples` is memory for
+    /// [`Sampling::samples`](crate::frame::Sampling::samples) radiances.
+    ///
+    /// # Errors
+    /// A size, depth or memory that doesn't fit.
+    pub fn new(
+        scene: &'a Scene<'a, A>,
+        camera: &Camera<A>,
+        settings: Settings,
+        work: &'a mut Work<A, MAX_DEPTH>,
+        samples: &'a mut [Rgb<A::Radiance>],
+    ) -> Result<Self, FrameError> {
+        let renderer = Renderer::new(scene, camera, settings, work, samples)?;
+        Ok(Self::from_renderer(renderer, Output::SRGB))
+    }
+}
+
+impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally>
+    Picture<'a, A, C, MAX_DEPTH, T>
+{
+    /// A picture of what a renderer renders.
+    pub fn from_renderer(renderer: Renderer<'a, A, MAX_DEPTH, T>, output: Output) -> Self {
+        let settings = *renderer.settings();
+        Self { renderer: Cell::new(Some(renderer)), settings, output, color: PhantomData }
+    }
+
+    /// The same picture with another dither.
+    #[must_use]
+    pub fn with_dither(mut self, dither: Dither) -> Self {
+        self.output.dither = dither;
+        self
+    }
+
+    /// The renderer, with what it has counted.
+    pub fn into_renderer(self) -> Option<Renderer<'a, A, MAX_DEPTH, T>> {
+        self.renderer.into_inner()
+    }
+
+    fn fill<D: DrawTarget<Color = C>>(
+        &self,
+        target: &mut D,
+        area: &Rectangle,
+        offset: Point,
+    ) -> Result<(), D::Error> {
+        let whole = Rectangle::new(Point::zero(), self.size());
+        let shown =
+            Rectangle::new(target.bounding_box().top_left + offset, target.bounding_box().size);
+        let visible = area.intersection(&whole).intersection(&shown);
+        if visible.is_zero_sized() {
+            return Ok(());
+        }
+        // Nothing that draws can be called while this one draws: the renderer is there.
+        let Some(mut renderer) = self.renderer.take() else { return Ok(()) };
+        let (x, y) = (visible.top_left.x as u16, visible.top_left.y as u16);
+        let columns = x..x.saturating_add(visible.size.width as u16);
+        let rows = y..y.saturating_add(visible.size.height as u16);
+        let output = self.output;
+        let colors = renderer
+            .scan(columns, rows)
+            .map(|(x, y, radiance)| C::from_pixel(output.pixel::<A, C::Pixel>(&radiance, x, y)));
+        let place = Rectangle::new(visible.top_left - offset, visible.size);
+        let result = target.fill_contiguous(&place, colors);
+        self.renderer.set(Some(renderer));
+        result
+    }
+}
+
+impl<A: Arithmetic, C, const MAX_DEPTH: usize, T> OriginDimensions
+    for Picture<'_, A, C, MAX_DEPTH, T>
+{
+    fn size(&self) -> Size {
+        Size::new(u32::from(self.settings.width), u32::from(self.settings.height))
+    }
+}
+
+impl<A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally> ImageDrawable
+    for Picture<'_, A, C, MAX_DEPTH, T>
+{
+    type Color = C;
+
+    fn draw<D: DrawTarget<Color = C>>(&self, target: &mut D) -> Result<(), D::Error> {
+        self.fill(target, &Rectangle::new(Point::zero(), self.size()), Point::zero())
+    }
+
+    fn draw_sub_image<D: DrawTarget<Color = C>>(
+        &self,
+        target: &mut D,
+        area: &Rectangle,
+    ) -> Result<(), D::Error> {
+        // A sub-image is drawn with its upper left corner at the origin.
+        self.fill(target, area, area.top_left)
+    }
+}

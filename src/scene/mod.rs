@@ -1,0 +1,184 @@
+//! Scenes: borrowed slices of shapes, materials and lights, validated once.
+//!
+//! A scene is put together from [`Parts`], slices that lie in flash or in buffers of the
+//! caller's, and checked by [`Scene::new`], a const fn; after that nothing is checked again.
+//!
+//! ```
+//! use whitted::math::Fixed;
+//! use whitted::scene::{Ambient, Background, Light, Material, MaterialSpec, Parts, Scene};
+//! use whitted::shape::{Plane, Sphere};
+//!
+//! static SCENE: Scene<Fixed> = Scene::checked(Parts {
+//!     spheres: &[Sphere::<Fixed>::new([0.0, 1.0, 4.0], 1.0, 0)],
+//!     planes: &[Plane::<Fixed>::new([0.0, 1.0, 0.0], 0.0, 1)],
+//!     materials: &[
+//!         Material::<Fixed>::new(MaterialSpec {
+//!             diffuse: [0.8, 0.1, 0.1],
+//!             reflection: [0.2; 3],
+//!             ..MaterialSpec::BLACK
+//!         }),
+//!         Material::<Fixed>::new(MaterialSpec { diffuse: [0.7; 3], ..MaterialSpec::BLACK }),
+//!     ],
+//!     lights: &[Light::<Fixed>::point([-4.0, 5.0, -3.0], [40.0; 3])],
+//!     background: Background::<Fixed>::uniform([0.2, 0.4, 0.8]),
+//!     ..Parts::EMPTY
+//! });
+//! ```
+
+mod background;
+mod camera;
+mod error;
+mod light;
+mod material;
+mod shapes;
+
+pub use background::Background;
+pub use camera::{Camera, Row, View};
+pub use error::SceneError;
+pub use light::{Falloff, Light, LightSpec};
+pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
+pub(crate) use shapes::with_shape;
+
+pub(crate) use light::Incident;
+
+use crate::math::{Arithmetic, Rgb};
+use crate::shape::{MaterialId, Plane, Sphere};
+
+/// The ambient irradiance E_amb divided by π, the same in the whole scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Ambient<A: Arithmetic>(pub Rgb<A::Radiance>);
+
+/// Where the classic programs differ (see the crate's documentation of the model).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rules<A: Arithmetic> {
+    /// Mirrored and transmitted radiance is multiplied by the cosine of its direction, as the
+    /// course does; Whitted, NFF and most others don't.
+    pub specular_cosine: bool,
+    /// Phong's highlight is multiplied by cos(N, L), as the course does.
+    pub highlight_cosine: bool,
+    /// A transmitting surface sends a reflection ray even where k_sg is 0 (the rule behind the
+    /// published ray counts of the Standard Procedural Databases).
+    pub transmitters_reflect: bool,
+    /// Total internal reflection carries k_sg alone, as in the course, not k_sg + k_tg.
+    pub lossy: bool,
+    /// A ray is sent if the largest channel of the product of the coefficients down the tree
+    /// is at least this.
+    pub cutoff: A::Weight,
+}
+
+impl<A: Arithmetic> Rules<A> {
+    /// The course's own form, and a cut-off of 1/255.
+    pub const COURSE: Self = Self {
+        specular_cosine: true,
+        highlight_cosine: true,
+        transmitters_reflect: false,
+        lossy: false,
+        cutoff: A::CUTOFF,
+    };
+
+    /// Whitted's form: no specular cosine, a highlight of its own.
+    pub const WHITTED: Self =
+        Self { specular_cosine: false, highlight_cosine: false, ..Self::COURSE };
+
+    /// The rules of the Neutral File Format's databases: Whitted's, without a cut-off.
+    pub const NFF: Self =
+        Self { transmitters_reflect: true, cutoff: A::NO_WEIGHT, ..Self::WHITTED };
+}
+
+/// What a scene is put together from. Shapes are numbered through in the order of the fields,
+/// planes last; where two are hit at the same distance, the lower number counts.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<'a, A: Arithmetic> {
+    /// Spheres.
+    pub spheres: &'a [Sphere<A>],
+    /// Infinite planes; they lie outside the octree.
+    pub planes: &'a [Plane<A>],
+    /// Materials, by the index that shapes give.
+    pub materials: &'a [Material<A>],
+    /// Lights.
+    pub lights: &'a [Light<A>],
+    /// The ambient irradiance.
+    pub ambient: Ambient<A>,
+    /// What rays see that hit nothing.
+    pub background: Background<A>,
+    /// Where the classic programs differ.
+    pub rules: Rules<A>,
+}
+
+impl<A: Arithmetic> Parts<'_, A> {
+    /// Nothing, in the dark: the base for `Parts { spheres: …, ..Parts::EMPTY }`.
+    pub const EMPTY: Self = Self {
+        spheres: &[],
+        planes: &[],
+        materials: &[],
+        lights: &[],
+        ambient: Ambient([A::BLACK; 3]),
+        background: Background::BLACK,
+        rules: Rules::COURSE,
+    };
+}
+
+/// A scene that has been checked: what rays are traced in.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a, A: Arithmetic> {
+    pub(crate) parts: Parts<'a, A>,
+    /// All materials stop shadow rays, so that a shadow ray may end at the first hit.
+    pub(crate) opaque_shadows: bool,
+}
+
+impl<'a, A: Arithmetic> Scene<'a, A> {
+    /// Checks the parts: every index, and the tree.
+    ///
+    /// # Errors
+    /// What doesn't fit together.
+    pub const fn new(parts: Parts<'a, A>) -> Result<Self, SceneError> {
+        if let Err(error) = shapes::check_materials(&parts) {
+            return Err(error);
+        }
+        let mut opaque_shadows = true;
+        let mut i = 0;
+        while i < parts.materials.len() {
+            let material = &parts.materials[i];
+            if !matches!(material.shadow, Shadow::Opaque) {
+                opaque_shadows = false;
+            }
+            if let Some(pattern) = &material.pattern
+                && pattern.other as usize >= parts.materials.len()
+            {
+                return Err(SceneError::Material { index: pattern.other });
+            }
+            i += 1;
+        }
+        Ok(Self { parts, opaque_shadows })
+    }
+
+    /// The same for scenes in `static`s: a mistake doesn't compile.
+    ///
+    /// # Panics
+    /// Where [`new`](Self::new) has an error.
+    pub const fn checked(parts: Parts<'a, A>) -> Self {
+        match Self::new(parts) {
+            Ok(scene) => scene,
+            Err(error) => panic!("{}", error.message()),
+        }
+    }
+
+    /// What the scene was put together from.
+    pub const fn parts(&self) -> &Parts<'a, A> {
+        &self.parts
+    }
+
+    /// The material at a point of a shape, the checker resolved.
+    #[inline(always)]
+    pub(crate) fn material_at(
+        &self,
+        id: MaterialId,
+        p: &[A::Length; 3],
+    ) -> Option<&'a Material<A>> {
+        let material = self.parts.materials.get(id.index())?;
+        match &material.pattern {
+            Some(pattern) if pattern.odd(p) => self.parts.materials.get(usize::from(pattern.other)),
+            _ => Some(material),
+        }
+    }
+}

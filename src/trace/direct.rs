@@ -1,0 +1,65 @@
+//! Direct light: Lambert and Phong for each light that a shadow ray finds visible.
+
+use super::visible::visible;
+use crate::math::{Arithmetic, Rgb, rgb};
+use crate::scene::{Incident, Material, Scene};
+use crate::shape::{Ray, Surface};
+use crate::tally::{RayKind, Tally, Term};
+
+/// A point being shaded.
+pub(super) struct Shading<'s, A: Arithmetic> {
+    pub(super) surface: &'s Surface<A>,
+    pub(super) material: &'s Material<A>,
+    /// The mirror image of the ray about the shading normal.
+    pub(super) mirror: &'s [A::Unit; 3],
+    /// The shadow ray, complete but for its direction.
+    pub(super) shadow: Ray<A>,
+    /// The product of the coefficients down the tree.
+    pub(super) weight: &'s Rgb<A::Weight>,
+    pub(super) depth: u8,
+}
+
+/// Adds what the point sends back along the ray of each light's direct light.
+#[inline(always)]
+pub(super) fn direct<A: Arithmetic, T: Tally>(
+    scene: &Scene<'_, A>,
+    mut at: Shading<'_, A>,
+    sum: &mut Rgb<A::Radiance>,
+    tally: &mut T,
+) {
+    let rules = &scene.parts.rules;
+    let mut index = 0;
+    for light in scene.parts.lights {
+        let number = index;
+        index += 1;
+        let Some(Incident { direction, distance, irradiance }) = light.at(&at.shadow.origin) else {
+            continue;
+        };
+        let cosine = A::cosine(&at.surface.normal, &direction);
+        if cosine <= A::NO_WEIGHT {
+            continue;
+        }
+        at.shadow.direction = direction;
+        tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
+        let Some(share) = visible(scene, &at.shadow, distance, tally) else { continue };
+        let diffuse = at.material.diffuse;
+        let mut factor = diffuse.map(|k| A::weight(k, cosine));
+        if at.material.shines {
+            // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
+            let lobe = A::cosine(at.mirror, &direction);
+            if lobe > A::NO_WEIGHT {
+                let mut highlight = A::power(lobe, &at.material.shininess);
+                if rules.highlight_cosine {
+                    highlight = A::weight(highlight, cosine);
+                }
+                factor = rgb(&factor, &at.material.specular, |f, k| f + A::weight(k, highlight));
+            }
+        }
+        let factor = rgb(&factor, &light.color, A::weight);
+        let factor = rgb(&factor, at.weight, A::weight);
+        let factor = if scene.opaque_shadows { factor } else { rgb(&factor, &share, A::weight) };
+        let radiance = factor.map(|f| A::dim(irradiance, f));
+        tally.term::<A>(Term::Direct { light: number }, &radiance);
+        *sum = rgb(sum, &radiance, A::gather);
+    }
+}

@@ -1,0 +1,11 @@
+//! Tracing: from a camera's ray to its radiance, the tree of rays on an explicit stack.
+
+mod direct;
+mod nearest;
+mod radiance;
+mod visible;
+mod work;
+
+pub use nearest::Hit;
+pub use radiance::Tracer;
+pub use work::Work;

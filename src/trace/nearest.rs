@@ -1,0 +1,70 @@
+//! The nearest hit along a ray.
+
+use crate::math::Arithmetic;
+use crate::scene::Scene;
+use crate::shape::{Ray, Shape};
+use crate::tally::Tally;
+
+/// The nearest hit along a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit<A: Arithmetic> {
+    /// From the ray's origin.
+    pub distance: A::Length,
+    /// See [`Meeting::detail`](crate::shape::Meeting::detail).
+    pub(crate) detail: A::Length,
+    /// The shape's number in the scene.
+    pub shape: u32,
+}
+
+/// Looks at shapes one by one and keeps the nearest hit.
+struct Nearest<'r, A: Arithmetic, T> {
+    ray: &'r Ray<A>,
+    coarse: A::Coarse,
+    best: Hit<A>,
+    tally: &'r mut T,
+}
+
+impl<A: Arithmetic, T: Tally> Nearest<'_, A, T> {
+    #[inline(always)]
+    fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) {
+        let leaving = self.ray.leaving;
+        if id == leaving.shape && (S::FLAT || !leaving.inwards) {
+            return;
+        }
+        self.tally.test();
+        let inwards = id == leaving.shape;
+        let limit = self.best.distance;
+        if let Some(meeting) = shape.nearest(self.ray, &self.coarse, inwards, limit)
+            && (meeting.distance < limit || id < self.best.shape)
+        {
+            self.best = Hit { distance: meeting.distance, detail: meeting.detail, shape: id };
+        }
+    }
+}
+
+/// The nearest hit in front of `limit`; the lowest number among equals.
+#[inline(always)]
+pub(crate) fn nearest<A: Arithmetic, T: Tally>(
+    scene: &Scene<'_, A>,
+    ray: &Ray<A>,
+    limit: A::Length,
+    tally: &mut T,
+) -> Option<Hit<A>> {
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
+    let mut search = Nearest { ray, coarse, best, tally };
+    let parts = &scene.parts;
+    let bounded = parts.spheres.len() as u32;
+    // Planes first: their distance bounds the walk.
+    let mut id = bounded;
+    for plane in parts.planes {
+        search.test(plane, id);
+        id += 1;
+    }
+    let mut id = 0;
+    for sphere in parts.spheres {
+        search.test(sphere, id);
+        id += 1;
+    }
+    if search.best.distance < limit { Some(search.best) } else { None }
+}

@@ -1,0 +1,208 @@
+//! The radiance along a ray: Whitted's tree of rays, without recursion.
+//!
+//! A ray's hit adds its own terms to the pixel, weighted by the product of the coefficients
+//! down the tree, and sends at most two rays. One is followed at once, the other waits on a
+//! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
+
+use super::direct::{Shading, direct};
+use super::nearest::{Hit, nearest};
+use super::work::Work;
+use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
+use crate::scene::{Scene, with_shape};
+use crate::shape::{Leaving, Meeting, Ray, Shape};
+use crate::tally::{RayKind, Tally, Term};
+
+/// A ray with its place in the tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path<A: Arithmetic> {
+    ray: Ray<A>,
+    /// The product of the coefficients down the tree.
+    weight: Rgb<A::Weight>,
+    depth: u8,
+    kind: RayKind,
+}
+
+impl<A: Arithmetic> Path<A> {
+    pub(super) const NONE: Self = Self {
+        ray: Ray {
+            origin: [A::NO_LENGTH; 3],
+            direction: [A::NO_UNIT; 3],
+            leaving: Leaving::NOTHING,
+        },
+        weight: [A::NO_WEIGHT; 3],
+        depth: 0,
+        kind: RayKind::Primary,
+    };
+}
+
+/// Traces rays in a scene, to a depth that its memory was made for.
+#[derive(Debug)]
+pub struct Tracer<'a, A: Arithmetic> {
+    scene: &'a Scene<'a, A>,
+    depth: u8,
+}
+
+impl<'a, A: Arithmetic> Tracer<'a, A> {
+    /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
+    #[inline(always)]
+    pub fn new(scene: &'a Scene<'a, A>, depth: u8) -> Self {
+        Self { scene, depth }
+    }
+
+    /// The nearest hit along a ray, for tools that show more than radiance.
+    pub fn nearest<T: Tally>(&self, ray: &Ray<A>, tally: &mut T) -> Option<Hit<A>> {
+        nearest(self.scene, ray, A::FAR, tally)
+    }
+
+    /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
+    /// made for is cut.
+    #[inline(always)]
+    pub fn radiance<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: &Ray<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> Rgb<A::Radiance> {
+        let mut path = Path { ray: *ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
+        let mut sum = [A::BLACK; 3];
+        let mut waiting = 0usize;
+        loop {
+            tally.ray(path.kind, path.depth, &path.ray, &path.weight);
+            let more = match nearest(self.scene, &path.ray, A::FAR, tally) {
+                None => {
+                    let background = self.scene.parts.background.radiance(&path.ray.direction);
+                    let radiance = rgb(&background, &path.weight, A::dim);
+                    tally.term::<A>(Term::Background, &radiance);
+                    sum = rgb(&sum, &radiance, A::gather);
+                    false
+                }
+                Some(hit) => {
+                    tally.hit::<A>(path.kind, hit.shape, hit.distance);
+                    let (more, other) = self.shade(&mut path, &hit, &mut sum, tally);
+                    if let Some(other) = other
+                        && let Some(place) = work.waiting.get_mut(waiting)
+                    {
+                        *place = other;
+                        waiting += 1;
+                    }
+                    more
+                }
+            };
+            if more {
+                continue;
+            }
+            if waiting == 0 {
+                return sum;
+            }
+            waiting -= 1;
+            match work.waiting.get(waiting) {
+                Some(next) => path = *next,
+                None => return sum,
+            }
+        }
+    }
+
+    /// Adds the terms of a hit; turns `path` into the next ray to follow if there is one, and
+    /// returns a second that must wait.
+    #[inline(always)]
+    fn shade<T: Tally>(
+        &self,
+        path: &mut Path<A>,
+        hit: &Hit<A>,
+        sum: &mut Rgb<A::Radiance>,
+        tally: &mut T,
+    ) -> (bool, Option<Path<A>>) {
+        let scene = self.scene;
+        let p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
+        let meeting = Meeting { distance: hit.distance, detail: hit.detail };
+        let (surface, id) = with_shape!(&scene.parts, hit.shape, shape => {
+            (shape.surface(&path.ray, &meeting, &p), shape.material())
+        }, return (false, None));
+        let Some(material) = scene.material_at(id, &p) else { return (false, None) };
+
+        let ambient = &scene.parts.ambient.0;
+        let radiance =
+            rgb(&rgb(&material.ambient, &path.weight, A::weight), ambient, |w, e| A::dim(e, w));
+        tally.term::<A>(Term::Ambient, &radiance);
+        *sum = rgb(sum, &radiance, A::gather);
+
+        let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
+        let outside = Ray {
+            origin: A::leave(&p, &surface.geometric, hit.distance),
+            direction: mirror,
+            leaving: Leaving { shape: hit.shape, inwards: surface.behind },
+        };
+        let shading = Shading {
+            surface: &surface,
+            material,
+            mirror: &mirror,
+            shadow: outside,
+            weight: &path.weight,
+            depth: path.depth,
+        };
+        direct(scene, shading, sum, tally);
+
+        if path.depth >= self.depth {
+            return (false, None);
+        }
+        let rules = &scene.parts.rules;
+        let depth = path.depth + 1;
+        let mut reflected = material.reflection;
+        let mut transmitted = None;
+        if material.transmits {
+            let eta = if surface.behind { &material.eta[1] } else { &material.eta[0] };
+            let direction = &path.ray.direction;
+            match A::refract(direction, &surface.normal, surface.cosine, eta) {
+                Some(direction) => {
+                    let mut weight = rgb(&material.transmission, &path.weight, A::weight);
+                    if rules.specular_cosine {
+                        let cosine = -A::cosine(&surface.normal, &direction);
+                        weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
+                    }
+                    if largest(&weight) >= rules.cutoff {
+                        let ray = Ray {
+                            origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
+                            direction,
+                            leaving: Leaving { shape: hit.shape, inwards: !surface.behind },
+                        };
+                        transmitted =
+                            Some(Path { ray, weight, depth, kind: RayKind::Transmission });
+                    }
+                }
+                // Nothing gets through: the mirror ray carries both, unless the scene says not.
+                None if !rules.lossy => {
+                    reflected = rgb(&reflected, &material.transmission, |a, b| a + b);
+                }
+                None => {}
+            }
+        }
+        if material.reflects
+            || (material.transmits && largest(&reflected) > A::NO_WEIGHT)
+            || (material.transmits && rules.transmitters_reflect)
+        {
+            let mut weight = rgb(&reflected, &path.weight, A::weight);
+            if rules.specular_cosine {
+                let cosine = A::weight_of(surface.cosine);
+                weight = weight.map(|w| A::weight(w, cosine));
+            }
+            // An interpolated normal can mirror a ray into the surface.
+            let above = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
+            if largest(&weight) >= rules.cutoff && above {
+                *path = Path { ray: outside, weight, depth, kind: RayKind::Reflection };
+                return (true, transmitted);
+            }
+        }
+        match transmitted {
+            Some(next) => {
+                *path = next;
+                (true, None)
+            }
+            None => (false, None),
+        }
+    }
+}
+
+#[inline(always)]
+fn positive<A: Arithmetic>(w: A::Weight) -> A::Weight {
+    if w < A::NO_WEIGHT { A::NO_WEIGHT } else { w }
+}

@@ -1,0 +1,24 @@
+//! The memory a tracer writes: all there is, bounded by MAX_DEPTH.
+
+use super::radiance::Path;
+use crate::math::Arithmetic;
+
+/// The working memory of a tracer: a ray waiting for each level of the tree, and the octree
+/// walk's stack. Initialised once; nothing is cleared between rays.
+#[derive(Clone, Debug)]
+pub struct Work<A: Arithmetic, const MAX_DEPTH: usize> {
+    pub(super) waiting: [Path<A>; MAX_DEPTH],
+}
+
+impl<A: Arithmetic, const MAX_DEPTH: usize> Work<A, MAX_DEPTH> {
+    /// Memory for trees of rays up to `MAX_DEPTH` deep, the camera's ray being depth 1.
+    pub const fn new() -> Self {
+        Self { waiting: [const { Path::NONE }; MAX_DEPTH] }
+    }
+}
+
+impl<A: Arithmetic, const MAX_DEPTH: usize> Default for Work<A, MAX_DEPTH> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
