@@ -394,23 +394,18 @@ mod constructors {
                     (x as f64 * f64_power_of_two(log2_step)) as $f
                 }
 
+                /// The side of an octree of 2^`log2_side` steps, as `Arithmetic::spans` takes it.
+                pub(crate) const fn log2_side(log2_side: u8, log2_step: i8) -> i8 {
+                    log2_side as i8 + log2_step
+                }
+
                 const fn f64_power_of_two(n: i8) -> f64 {
                     f64::from_bits(((1023 + n as i64) as u64) << 52)
                 }
 
-                /// 2^n
+                /// 2^n, for n from −126: a walk asks for it, so no loop.
                 pub(crate) const fn power_of_two(n: i8) -> $f {
-                    let mut power = 1.0;
-                    let mut i = 0;
-                    while i < n {
-                        power *= 2.0;
-                        i += 1;
-                    }
-                    while i > n {
-                        power *= 0.5;
-                        i -= 1;
-                    }
-                    power
+                    f32::from_bits(((127 + n as i32) as u32) << 23) as $f
                 }
             }
         };

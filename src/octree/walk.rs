@@ -1,0 +1,318 @@
+//! Walking the tree along a ray.
+//!
+//! The ray is mirrored so that it goes towards larger coordinates on every axis; children are
+//! then numbered along it, and one xor gives their true numbers. For each axis the walk knows
+//! the ray parameter at which the current cell's far face is passed (its exits) and that of
+//! crossing half the cell; a child's exits are the cell's in the upper half, and less by the
+//! half in the lower one. Going down halves; going on looks for the smallest exit. There is no
+//! multiplication after the set-up.
+//!
+//! A ray that starts outside is first moved to where it enters the cube, less what that place
+//! may be wrong, so its start may lie a little before the cube: nothing here minds.
+//!
+//! **The end.** The next cell is entered where the last one is left; if that is beyond the best
+//! hit (not at it: a tie may be there), nothing nearer can follow. Where the walk's idea of the
+//! parameter is wrong, it is the position along the ray that is wrong by less than the builder's
+//! margin, so the shape was listed in a cell already seen.
+
+use super::builder::{Cube, LEAST_LOG2_SIDE, MOST_LOG2_SIDE, OctreeBuffer};
+use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
+use crate::math::{Arithmetic, for_each_arithmetic, sub};
+
+/// What a walk finds is its visitor's business.
+pub trait Visitor<A: Arithmetic> {
+    /// The distance of the best hit so far: nothing beyond it is of interest.
+    fn limit(&self) -> A::Length;
+    /// Tests a shape, and says whether the walk may stop. A shape may come more than once, and
+    /// in any order; of several at the same distance all come.
+    fn visit(&mut self, id: u32) -> bool;
+    /// An inner node is entered.
+    #[inline(always)]
+    fn node(&mut self) {}
+    /// A child is looked at, whether it exists or not.
+    #[inline(always)]
+    fn step(&mut self) {}
+}
+
+/// A tree, borrowed and validated.
+#[derive(Clone, Copy, Debug)]
+pub struct Octree<'a, A: Arithmetic> {
+    words: &'a [u32],
+    origin: [A::Length; 3],
+    width: IdWidth,
+    log2_side: i8,
+}
+
+/// An inner node under way.
+#[derive(Clone, Copy, Debug)]
+struct Frame<A: Arithmetic> {
+    word: u32,
+    /// The current child's number, in the mirrored order.
+    number: u32,
+    exits: [A::Span; 3],
+    halves: [A::Span; 3],
+}
+
+/// A walk's memory. It needn't be cleared between walks.
+#[derive(Clone, Copy, Debug)]
+pub struct WalkStack<A: Arithmetic> {
+    frames: [Frame<A>; MAX_LEVELS],
+}
+
+impl<A: Arithmetic> WalkStack<A> {
+    /// Memory for walks, one after the other.
+    pub fn new() -> Self {
+        let spans = [A::Span::default(); 3];
+        Self { frames: [Frame { word: 0, number: 0, exits: spans, halves: spans }; MAX_LEVELS] }
+    }
+}
+
+impl<A: Arithmetic> Default for WalkStack<A> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Whether positions in the cube, and differences of them, fit.
+const fn cube_fits(cube: &Cube, log2_step: i8) -> bool {
+    let log2 = cube.log2_side as i32 + log2_step as i32;
+    if cube.log2_side < LEAST_LOG2_SIDE
+        || cube.log2_side > MOST_LOG2_SIDE
+        || log2 < -60
+        || log2 > 60
+    {
+        return false;
+    }
+    let mut axis = 0;
+    while axis < 3 {
+        if cube.origin[axis] < -(1 << 29) || cube.origin[axis] > 1 << 29 {
+            return false;
+        }
+        axis += 1;
+    }
+    true
+}
+
+for_each_arithmetic! {
+    impl<'a> Octree<'a, A> {
+        /// The tree in these words over so many shapes, its grid of steps of 2^`log2_step`
+        /// (−16 for fixed point, whatever is given).
+        ///
+        /// # Errors
+        /// See [`validate`].
+        pub const fn try_new(
+            words: &'a [u32],
+            shapes: usize,
+            cube: &Cube,
+            log2_step: i8,
+        ) -> Result<Self, TreeError> {
+            if !cube_fits(cube, log2_step) {
+                return Err(TreeError::Cube);
+            }
+            if let Err(error) = validate(words, shapes) {
+                return Err(error);
+            }
+            let Some(width) = IdWidth::of(shapes) else { return Err(TreeError::TooManyShapes) };
+            let o = cube.origin;
+            Ok(Self {
+                words,
+                origin: [
+                    make::from_grid(o[0], log2_step),
+                    make::from_grid(o[1], log2_step),
+                    make::from_grid(o[2], log2_step),
+                ],
+                width,
+                log2_side: make::log2_side(cube.log2_side, log2_step),
+            })
+        }
+
+        /// The tree in a buffer, for `static`s.
+        ///
+        /// # Panics
+        /// Where [`try_new`](Self::try_new) has an error: for a step that is absurd.
+        pub const fn of<const WORDS: usize>(
+            buffer: &'a OctreeBuffer<WORDS>,
+            log2_step: i8,
+        ) -> Self {
+            match Self::try_new(buffer.words(), buffer.shapes(), &buffer.built().cube, log2_step) {
+                Ok(tree) => tree,
+                Err(error) => panic!("{}", error.message()),
+            }
+        }
+    }
+}
+
+impl<A: Arithmetic> Octree<'_, A> {
+    /// Shows the visitor the shapes that the ray may meet nearer than the visitor's limit, about
+    /// in the order of the ray.
+    #[inline(always)]
+    pub fn walk<V: Visitor<A>>(
+        &self,
+        origin: &[A::Length; 3],
+        direction: &[A::Unit; 3],
+        stack: &mut WalkStack<A>,
+        visitor: &mut V,
+    ) {
+        let Some(&(mut word)) = self.words.first() else { return };
+        let side = A::side(self.log2_side);
+        let mut o = sub(origin, &self.origin);
+        let mut d = *direction;
+        let mut mirror = 0;
+        let mut start = A::NO_LENGTH;
+        for axis in 0..3 {
+            if d[axis] < A::NO_UNIT {
+                d[axis] = -d[axis];
+                o[axis] = side - o[axis];
+                mirror |= 1 << axis;
+            }
+            if o[axis] < A::NO_LENGTH {
+                let entry = A::ratio(-o[axis], d[axis]);
+                if entry > start {
+                    start = entry;
+                }
+            }
+        }
+        let mut slack = A::NO_LENGTH;
+        if start > A::NO_LENGTH {
+            if start >= A::FAR {
+                return;
+            }
+            slack = position_error::<A>(start);
+            slack = slack + slack;
+            start = start - slack;
+            o = A::along(&o, start, &d);
+        }
+        if o[0] > side || o[1] > side || o[2] > side {
+            return;
+        }
+        let spans = [
+            A::spans(o[0], d[0], self.log2_side),
+            A::spans(o[1], d[1], self.log2_side),
+            A::spans(o[2], d[2], self.log2_side),
+        ];
+        let mut exits = [spans[0].0, spans[1].0, spans[2].0];
+        let mut halves = [A::half(spans[0].1), A::half(spans[1].1), A::half(spans[2].1)];
+        let zero = A::Span::default();
+        // Where the hits are, distances are as wrong as the place where the ray enters.
+        let back = start - slack;
+        let bound_of = |limit: A::Length| A::span(limit - back, self.log2_side);
+        let mut bound = bound_of(visitor.limit());
+        let mut level = 0;
+        let mut last = u32::MAX;
+
+        if node::is_leaf(word) {
+            if zero <= bound {
+                self.visit_leaf(word, &mut last, visitor);
+            }
+            return;
+        }
+        let mut number = first_child::<A>(&exits, &halves, zero);
+        let mut ends = child_exits::<A>(&exits, &halves, number);
+        let mut entry = zero;
+        if entry > bound {
+            return;
+        }
+        visitor.node();
+        loop {
+            visitor.step();
+            if let Some(index) = node::child(word, number ^ mirror) {
+                let Some(&below) = self.words.get(index) else { return };
+                if node::is_leaf(below) {
+                    if self.visit_leaf(below, &mut last, visitor) {
+                        return;
+                    }
+                    bound = bound_of(visitor.limit());
+                } else {
+                    let Some(frame) = stack.frames.get_mut(level) else { return };
+                    *frame = Frame { word, number, exits, halves };
+                    level += 1;
+                    word = below;
+                    exits = ends;
+                    halves = [A::half(halves[0]), A::half(halves[1]), A::half(halves[2])];
+                    number = first_child::<A>(&exits, &halves, entry);
+                    ends = child_exits::<A>(&exits, &halves, number);
+                    visitor.node();
+                    continue;
+                }
+            }
+            // On to the next child, of this node or of one above.
+            loop {
+                let mut axis = 1;
+                entry = ends[0];
+                if ends[1] < entry {
+                    (entry, axis) = (ends[1], 2);
+                }
+                if ends[2] < entry {
+                    (entry, axis) = (ends[2], 4);
+                }
+                if entry > bound {
+                    return;
+                }
+                if number & axis == 0 {
+                    number |= axis;
+                    ends = child_exits::<A>(&exits, &halves, number);
+                    break;
+                }
+                level = level.wrapping_sub(1);
+                let Some(frame) = stack.frames.get(level) else { return };
+                Frame { word, number, exits, halves } = *frame;
+                ends = child_exits::<A>(&exits, &halves, number);
+            }
+        }
+    }
+
+    /// Visits the ids of a leaf, and says whether the visitor wants to stop.
+    #[inline(always)]
+    fn visit_leaf<V: Visitor<A>>(&self, leaf: u32, last: &mut u32, visitor: &mut V) -> bool {
+        let (mut word, mut next) = (leaf, 0);
+        if let Some(start) = node::run(leaf) {
+            let Some(&first) = self.words.get(start) else { return false };
+            (word, next) = (first, start);
+        }
+        loop {
+            let mut ids = self.width.ids(word);
+            while let Some(id) = ids.next() {
+                // Large shapes lie in many cells in a row.
+                if id != *last {
+                    *last = id;
+                    if visitor.visit(id) {
+                        return true;
+                    }
+                }
+            }
+            if !node::continues(word) {
+                return false;
+            }
+            next += 1;
+            let Some(&following) = self.words.get(next) else { return false };
+            word = following;
+        }
+    }
+}
+
+/// What a position may be wrong that was reached over the distance `t`.
+#[inline(always)]
+fn position_error<A: Arithmetic>(t: A::Length) -> A::Length {
+    let ahead = [A::ONE_UNIT, A::NO_UNIT, A::NO_UNIT];
+    A::leave(&[A::NO_LENGTH; 3], &ahead, t)[0]
+}
+
+/// The child in which the ray is at `entry`.
+#[inline(always)]
+fn first_child<A: Arithmetic>(exits: &[A::Span; 3], halves: &[A::Span; 3], entry: A::Span) -> u32 {
+    let passed = |axis: usize| u32::from(exits[axis] - halves[axis] <= entry) << axis;
+    passed(0) | passed(1) | passed(2)
+}
+
+/// Where the ray leaves the child's slabs.
+#[inline(always)]
+fn child_exits<A: Arithmetic>(
+    exits: &[A::Span; 3],
+    halves: &[A::Span; 3],
+    number: u32,
+) -> [A::Span; 3] {
+    let exit = |axis: usize| {
+        if number >> axis & 1 != 0 { exits[axis] } else { exits[axis] - halves[axis] }
+    };
+    [exit(0), exit(1), exit(2)]
+}
