@@ -3,10 +3,9 @@
 use std::convert::Infallible;
 use std::path::Path;
 
-use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::Gray4;
 use embedded_graphics::prelude::*;
-use whitted_demo::oled::{SIZE, picture};
+use whitted_demo::oled::{self, SIZE};
 
 const WIDTH: usize = SIZE.width as usize;
 const HEIGHT: usize = SIZE.height as usize;
@@ -50,7 +49,7 @@ pub(crate) fn compare(dump: &Path) -> Result<(), String> {
     let dump = std::fs::read(dump).map_err(|error| format!("{}: {error}", dump.display()))?;
     let shown = greys(&dump)?;
     let mut here = Memory([[0; WIDTH]; HEIGHT]);
-    let Ok(()) = Image::new(&picture(), Point::zero()).draw(&mut here);
+    let Ok(()) = oled::draw(&mut here);
 
     let pixels = || (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
     let wrong: Vec<_> = pixels().filter(|&(x, y)| shown[y][x] != here.0[y][x]).collect();

@@ -76,16 +76,26 @@ impl Board {
     /// Draws one job and prints its result.
     pub fn draw(&mut self, job: &Job) {
         let top = stack::paint();
-        let outcome = frame::draw(job, &mut self.counter, |_| {});
+        let checksum = frame::draw(job, &mut self.counter, |_| {});
         let stack = stack::used(top);
         let instructions = self.instructions();
-        let [primary, reflection, transmission, shadow, ambient] = outcome.rays;
+        // Counting rays would be counted with the instructions.
+        let (again, rays) = frame::count(job);
+        if again != checksum {
+            println!("error {job}: counting rays changes the picture");
+            exit(false)
+        }
         println!(
             "result board={} job={job} checksum={:016x} \
-             rays={primary},{reflection},{transmission},{shadow},{ambient} \
+             rays={},{},{},{},{} \
              instructions={instructions} stack={stack} static={}",
             self.name,
-            outcome.checksum.value(),
+            checksum.value(),
+            rays.primary,
+            rays.reflection,
+            rays.transmission,
+            rays.shadow,
+            rays.ambient,
             stack::static_bytes(),
         );
     }

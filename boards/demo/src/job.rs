@@ -78,7 +78,12 @@ impl Job {
     /// software floating point finishes in a second or so.
     pub fn small() -> impl Iterator<Item = Self> {
         SceneName::ALL.into_iter().flat_map(|scene| {
-            ArithName::ALL.into_iter().map(move |arith| Self { scene, arith, width: 80, height: 60 })
+            ArithName::ALL.into_iter().map(move |arith| Self {
+                scene,
+                arith,
+                width: 80,
+                height: 60,
+            })
         })
     }
 }

@@ -5,8 +5,6 @@
 mod ssd0323;
 mod stellaris;
 
-use embedded_graphics::image::Image;
-use embedded_graphics::prelude::*;
 use embedded_hal_bus::spi::ExclusiveDevice;
 use whitted_demo::board::{self, Board};
 use whitted_demo::oled;
@@ -20,6 +18,6 @@ fn main() -> ! {
     let stellaris::Peripherals { ssi, data_command, select } = stellaris::Peripherals::new();
     let spi = ExclusiveDevice::new_no_delay(ssi, select).unwrap();
     let mut display = ssd0323::Ssd0323::new(spi, data_command).unwrap();
-    board.shown(|| Image::new(&oled::picture(), Point::zero()).draw(&mut display).unwrap());
+    board.shown(|| oled::draw(&mut display).unwrap());
     board::idle()
 }

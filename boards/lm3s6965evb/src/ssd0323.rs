@@ -56,11 +56,7 @@ impl<S: SpiDevice, P: OutputPin> Ssd0323<S, P> {
     }
 
     /// Opens a window on pairs of columns and on rows, all bounds inclusive.
-    fn window(
-        &mut self,
-        pairs: [u8; 2],
-        rows: [u8; 2],
-    ) -> Result<(), Error<S::Error, P::Error>> {
+    fn window(&mut self, pairs: [u8; 2], rows: [u8; 2]) -> Result<(), Error<S::Error, P::Error>> {
         self.command(&[COLUMNS, pairs[0], pairs[1]])?;
         self.command(&[ROWS, rows[0], rows[1]])?;
         self.data_command.set_high().map_err(Error::Pin)
