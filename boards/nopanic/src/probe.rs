@@ -36,7 +36,7 @@ pub extern "C" fn probe() {
 
 /// A scene of everything, made from run-time values in one arithmetic, and rendered in every way.
 macro_rules! arithmetic {
-    ($name:ident, $a:ty) => {
+    ($name:ident, $a:ty, $tally:ty) => {
         #[inline(never)]
         fn $name() -> Option<()> {
             let spec = MaterialSpec {
@@ -99,18 +99,17 @@ macro_rules! arithmetic {
             any(spheres[0].at(any(spheres[1].center())).radius());
 
             let camera = Camera::<$a>::try_look_at(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any(1.0));
-            render(&scene, &any(camera.ok()?), ());
+            any(camera.ok()?);
             let camera =
                 Camera::<$a>::try_from_vectors(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any([1.0; 3]));
-            render(&scene, &any(camera.ok()?), Counts::default());
-            Some(())
+            render(&scene, &any(camera.ok()?), <$tally>::default())
         }
     };
 }
 
-arithmetic!(fixed, Fixed);
-arithmetic!(single, f32);
-arithmetic!(double, f64);
+arithmetic!(fixed, Fixed, Counts);
+arithmetic!(single, f32, ());
+arithmetic!(double, f64, ());
 
 /// Every way in which a picture leaves.
 #[inline(never)]
@@ -142,16 +141,8 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     any(renderer.scan(any(3)..any(1), any(7)..any(2)).next());
     let ray = any(renderer.ray(any(3), any(4)));
     any(renderer.radiance(&ray));
-    pixels::<A, T, frame::Rgb888>(&mut renderer, &output);
-    pixels::<A, T, frame::Rgb565>(&mut renderer, &output);
-    pixels::<A, T, frame::Gray8>(&mut renderer, &output);
-    pixels::<A, T, frame::Gray4>(&mut renderer, &output);
-    pixels::<A, T, frame::Gray1>(&mut renderer, &output);
-    let renderer = picture::<A, T, eg::Rgb888>(renderer, output)?;
-    let renderer = picture::<A, T, eg::Rgb565>(renderer, output)?;
-    let renderer = picture::<A, T, eg::Gray8>(renderer, output)?;
+    pixels(&mut renderer, &output);
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
-    let renderer = picture::<A, T, eg::BinaryColor>(renderer, output)?;
     any(renderer.tally());
 
     let tracer = any(Tracer::new(scene, any(5)));
@@ -164,18 +155,17 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     Some(())
 }
 
+/// One pixel format each: the tracer is compiled into every one of these calls, and the formats
+/// are asked by themselves in [`formats`].
 #[inline(never)]
-fn pixels<A: Arithmetic, T: Tally, P: frame::Pixel>(
-    renderer: &mut Renderer<'_, A, 5, T>,
-    output: &Output,
-) {
-    let mut line = any([P::quantize(any([7; 3]), any(9)); 60]);
+fn pixels<A: Arithmetic, T: Tally>(renderer: &mut Renderer<'_, A, 5, T>, output: &Output) {
+    let mut line = any([frame::Rgb888::default(); 60]);
     if let Some(line) = line.get_mut(..any(60)) {
         renderer.line(any(0), output, line);
     }
     let mut bytes = any([0; 240]);
     if let Some(bytes) = bytes.get_mut(..any(240)) {
-        any(renderer.band::<P>(any(0), output, bytes));
+        any(renderer.band::<frame::Rgb565>(any(0), output, bytes));
     }
     any((line, bytes));
 }
@@ -234,9 +224,20 @@ fn formats() {
     any(tone.value(any(5)));
     any(Transfer::Srgb);
     let threshold = any(Dither::Ordered).threshold(any(1), any(2));
-    any(<frame::Rgb565 as frame::Pixel>::quantize(any([1; 3]), threshold));
+    format::<eg::Rgb565>(threshold);
+    format::<eg::Rgb888>(threshold);
+    format::<eg::Gray8>(threshold);
+    format::<eg::Gray4>(threshold);
+    format::<eg::BinaryColor>(threshold);
     any(MaterialId::new(any(7)).inside_only());
     any(MaterialId::new(any(7)).index());
+}
+
+#[inline(never)]
+fn format<C: Color>(threshold: u16) {
+    let pixel = <C::Pixel as frame::Pixel>::quantize(any([1; 3]), threshold);
+    any(frame::Pixel::to_be_bytes(any(pixel)));
+    any(C::from_pixel(any(pixel)));
 }
 
 /// Functions on bare numbers.
