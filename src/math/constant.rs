@@ -3,7 +3,7 @@
 //! computes the same bits at run time as the compiler does.
 
 /// The square root, to the last bit or its neighbour; 0 for what has none.
-pub const fn sqrt(x: f64) -> f64 {
+pub(crate) const fn sqrt(x: f64) -> f64 {
     if !(x > 0.0) || x == f64::INFINITY {
         return if x == f64::INFINITY { x } else { 0.0 };
     }
@@ -39,7 +39,7 @@ pub const fn tan_degrees(angle: f64) -> f64 {
 }
 
 /// The unit vector along `v`; `None` for a null vector or one that isn't of numbers.
-pub const fn unit_vector(v: [f64; 3]) -> Option<[f64; 3]> {
+pub(crate) const fn unit_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled by the largest component first: the squares of a direction given as 1e-200 vanish.
     let mut largest = 0.0;
     let mut i = 0;
@@ -62,8 +62,32 @@ pub const fn unit_vector(v: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 /// `a × b`.
-pub const fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) const fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The vectors b and c of the plane for which the linear forms are 1 and 0, 0 and 1; and by
+/// what their components may be wrong if `error` is the sum of what one coefficient of each
+/// form may be wrong.
+pub(crate) const fn inverted(
+    second: [f64; 2],
+    third: [f64; 2],
+    error: f64,
+) -> ([f64; 2], [f64; 2], f64) {
+    let det = second[0] * third[1] - second[1] * third[0];
+    let b = [third[1] / det, -third[0] / det];
+    let c = [-second[1] / det, second[0] / det];
+    let mut size = 0.0;
+    let all = [b[0], b[1], c[0], c[1]];
+    let mut i = 0;
+    while i < 4 {
+        let x = if all[i] < 0.0 { -all[i] } else { all[i] };
+        size = if x > size { x } else { size };
+        i += 1;
+    }
+    // The inverse's change is −M⁻¹·E·M⁻¹, each entry of M⁻¹ at most the size; doubled for what
+    // is not linear in E.
+    (b, c, 4.0 * size * size * error)
 }
 
 #[cfg(test)]

@@ -23,6 +23,30 @@ pub struct FloatBarycentric<F> {
     second: [F; 2],
     third: [F; 2],
     slack: [F; 2],
+    /// How far from the coordinates' origin the triangle reaches: its plane is rounded so.
+    reach: F,
+}
+
+/// See [`Arithmetic::Outline`]: half the sides of the rectangle, and how far from the
+/// coordinates' origin the polygon reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatOutline<F> {
+    half: [F; 2],
+    reach: F,
+}
+
+/// See [`Arithmetic::Edge`]: `normal·(x, y) + offset`, not negative inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatEdge<F> {
+    normal: [F; 2],
+    offset: F,
+}
+
+/// See [`Arithmetic::Spot`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatSpot<F> {
+    at: [F; 2],
+    slack: F,
 }
 
 macro_rules! float {
@@ -39,6 +63,10 @@ macro_rules! float {
             type Exponent = $f;
             type Eta = FloatEta<$f>;
             type Barycentric = FloatBarycentric<$f>;
+            type Normal = [$f; 3];
+            type Outline = FloatOutline<$f>;
+            type Edge = FloatEdge<$f>;
+            type Spot = FloatSpot<$f>;
             type Coarse = ();
             type Aim = $f;
             type Span = $f;
@@ -51,6 +79,7 @@ macro_rules! float {
             const NO_WEIGHT: $f = 0.0;
             const FULL: $f = 1.0;
             const BLACK: $f = 0.0;
+            const NO_SPAN: $f = 0.0;
             const CUTOFF: $f = 1.0 / 255.0;
 
             #[inline(always)]
@@ -163,19 +192,112 @@ macro_rules! float {
             fn coarse(_: &[$f; 3], _: &[$f; 3]) {}
 
             #[inline(always)]
-            fn barycentric(form: &FloatBarycentric<$f>, x: $f, y: $f, t: $f) -> Option<($f, $f)> {
-                let off = t * (8.0 * $eps);
+            fn barycentric(
+                form: &FloatBarycentric<$f>,
+                x: $f,
+                y: $f,
+                t: $f,
+                slope: $f,
+            ) -> Option<($f, $f)> {
+                let off = (t + form.reach) * (8.0 * $eps) / slope;
+                // At a glance the hit is anywhere, but the triangle is no larger than that.
+                let most = |x: $f| if x < 0.03125 { x } else { 0.03125 };
                 let b = form.second[0] * x + form.second[1] * y;
-                let slack_b = off * form.slack[0];
+                let slack_b = most(off * form.slack[0]);
                 if b < -slack_b {
                     return None;
                 }
                 let c = form.third[0] * x + form.third[1] * y;
-                let slack_c = off * form.slack[1];
+                let slack_c = most(off * form.slack[1]);
                 if c < -slack_c || b + c > 1.0 + (slack_b + slack_c) {
                     return None;
                 }
                 Some((b, c))
+            }
+
+            #[inline(always)]
+            fn weights(form: &FloatBarycentric<$f>, x: $f, y: $f) -> ($f, $f) {
+                let clamp = |x: $f, most: $f| {
+                    if x > most {
+                        most
+                    } else if x > 0.0 {
+                        x
+                    } else {
+                        0.0
+                    }
+                };
+                let b = clamp(form.second[0] * x + form.second[1] * y, 1.0);
+                (b, clamp(form.third[0] * x + form.third[1] * y, 1.0 - b))
+            }
+
+            #[inline(always)]
+            fn unpack(n: &[$f; 3]) -> [$f; 3] {
+                *n
+            }
+
+            #[inline(always)]
+            fn spot(
+                outline: &FloatOutline<$f>,
+                x: $f,
+                y: $f,
+                t: $f,
+                slope: $f,
+            ) -> Option<FloatSpot<$f>> {
+                let off = (t + outline.reach) * (8.0 * $eps) / slope;
+                let most = (outline.half[0] + outline.half[1]) * 0.03125;
+                let slack = if off < most { off } else { most };
+                let beyond = |x: $f, half: $f| x > half + slack || -x > half + slack;
+                if beyond(x, outline.half[0]) || beyond(y, outline.half[1]) {
+                    return None;
+                }
+                // The edges' normals are unit vectors: both coordinates may be off.
+                Some(FloatSpot { at: [x, y], slack: slack + slack })
+            }
+
+            #[inline(always)]
+            fn beyond(edge: &FloatEdge<$f>, spot: &FloatSpot<$f>) -> bool {
+                edge.normal[0] * spot.at[0] + edge.normal[1] * spot.at[1] + edge.offset
+                    < -spot.slack
+            }
+
+            #[inline(always)]
+            fn cone(
+                w: &[$f; 3],
+                d: &[$f; 3],
+                axis: &[$f; 3],
+                sin_cos: [$f; 2],
+                waist: $f,
+            ) -> Option<[$f; 2]> {
+                let [sin, cos] = sin_cos;
+                let (s, da) = (Self::dot(w, axis), Self::dot(d, axis));
+                let wp = Self::along(w, -s, axis);
+                let dp = Self::along(d, -da, axis);
+                let (rs, rd) = (waist + sin * s, sin * da);
+                let cos2 = cos * cos;
+                let a = cos2 * Self::dot(&dp, &dp) - rd * rd;
+                let b = cos2 * Self::dot(&wp, &dp) - rs * rd;
+                let c = cos2 * Self::dot(&wp, &wp) - rs * rs;
+                let square = b * b - a * c;
+                if square < 0.0 {
+                    return None;
+                }
+                let h = $sqrt(square);
+                let over = |x: $f, y: $f| {
+                    let q = x / y;
+                    if q < -2.0 {
+                        -2.0
+                    } else if q < 2.0 {
+                        q
+                    } else {
+                        2.0
+                    }
+                };
+                // Of the two roots one is free of cancellation, and gives the other.
+                Some(if b >= 0.0 {
+                    [over(-b - h, a), over(c, -b - h)]
+                } else {
+                    [over(c, h - b), over(h - b, a)]
+                })
             }
 
             #[inline(always)]
@@ -308,7 +430,9 @@ mod constructors {
     macro_rules! constructors {
         ($f:ident) => {
             pub(crate) mod $f {
-                use super::super::{FloatBarycentric, FloatEta, FloatRadius};
+                use super::super::{
+                    FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius,
+                };
 
                 const fn within(x: f64, low: f64, high: f64) -> Option<$f> {
                     if x >= low && x <= high { Some(x as $f) } else { None }
@@ -356,9 +480,12 @@ mod constructors {
                     within(x, -16.0, 16.0)
                 }
 
+                /// From the second and third corner relative to the first, and the largest
+                /// coordinate of all.
                 pub(crate) const fn barycentric(
                     b: [f64; 2],
                     c: [f64; 2],
+                    reach: f64,
                 ) -> Option<FloatBarycentric<$f>> {
                     let det = b[0] * c[1] - b[1] * c[0];
                     let size2 = b[0] * b[0] + b[1] * b[1] + c[0] * c[0] + c[1] * c[1];
@@ -372,7 +499,72 @@ mod constructors {
                         second: [second[0] as $f, second[1] as $f],
                         third: [third[0] as $f, third[1] as $f],
                         slack: [slack(&second) as $f, slack(&third) as $f],
+                        reach: reach as $f,
                     })
+                }
+
+                /// The second and third corner again, and by what they may be wrong.
+                pub(crate) const fn corners(
+                    form: &FloatBarycentric<$f>,
+                ) -> ([f64; 2], [f64; 2], f64) {
+                    let second = [form.second[0] as f64, form.second[1] as f64];
+                    let third = [form.third[0] as f64, form.third[1] as f64];
+                    let error = [slack(&second), slack(&third)];
+                    let step = $f::EPSILON as f64;
+                    crate::math::inverted(second, third, (error[0] + error[1]) * step)
+                }
+
+                pub(crate) const fn normal(n: [f64; 3]) -> [$f; 3] {
+                    [n[0] as $f, n[1] as $f, n[2] as $f]
+                }
+
+                /// From half the sides of the rectangle and the largest coordinate of all.
+                pub(crate) const fn outline(half: [f64; 2], reach: f64) -> FloatOutline<$f> {
+                    FloatOutline { half: [half[0] as $f, half[1] as $f], reach: reach as $f }
+                }
+
+                /// Half the sides of the rectangle.
+                pub(crate) const fn half(outline: &FloatOutline<$f>) -> [f64; 2] {
+                    [outline.half[0] as f64, outline.half[1] as f64]
+                }
+
+                /// The half plane that `inward` points into from the point `at`; everything for
+                /// a null vector.
+                pub(crate) const fn edge(
+                    inward: [f64; 2],
+                    at: [f64; 2],
+                    _: &FloatOutline<$f>,
+                ) -> FloatEdge<$f> {
+                    let n = match crate::math::unit_f64([inward[0], inward[1], 0.0]) {
+                        Some(n) => n,
+                        None => [0.0; 3],
+                    };
+                    let n = [n[0] as $f, n[1] as $f];
+                    let offset = -(n[0] as f64 * at[0] + n[1] as f64 * at[1]);
+                    FloatEdge { normal: n, offset: offset as $f }
+                }
+
+                pub(crate) const fn from_length(x: $f) -> f64 {
+                    x as f64
+                }
+
+                pub(crate) const fn from_unit(x: $f) -> f64 {
+                    x as f64
+                }
+
+                pub(crate) const fn from_radius(r: &FloatRadius<$f>) -> f64 {
+                    r.r as f64
+                }
+
+                /// A sum of few coordinates: twice their range and more.
+                pub(crate) const fn sum(x: f64) -> $f {
+                    x as $f
+                }
+
+                /// A coordinate, in range or not, in steps of 2^`log2_step`.
+                pub(crate) const fn grid(x: f64, log2_step: i8) -> i32 {
+                    let y = x / f64_power_of_two(log2_step);
+                    (if y < 0.0 { y - 0.5 } else { y + 0.5 }) as i32
                 }
 
                 const fn slack(form: &[f64; 2]) -> f64 {

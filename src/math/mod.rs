@@ -23,10 +23,12 @@ mod root;
 mod vector;
 
 pub use constant::tan_degrees;
-pub(crate) use constant::{cross as cross_f64, unit_vector as unit_f64};
+pub(crate) use constant::{
+    cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
+};
 pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
-pub use fixed::{FixedInverse, FixedRadius};
-pub use float::{FloatBarycentric, FloatEta, FloatRadius};
+pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedSpot};
+pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatSpot};
 pub(crate) use root::normalize as normalize_u32;
 pub use root::sqrt_f32;
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
@@ -102,6 +104,15 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     type Eta: Copy + Debug + Send + Sync;
     /// Two linear forms that give the barycentric coordinates of a point in a triangle's plane.
     type Barycentric: Copy + Debug + Send + Sync;
+    /// A unit vector as a mesh stores it.
+    type Normal: Copy + Debug + Send + Sync;
+    /// The rectangle around a polygon, seen along its plane's dominant axis, and the exponent
+    /// that its edges share.
+    type Outline: Copy + Debug + Send + Sync;
+    /// A half plane: one side of an edge of a polygon.
+    type Edge: Copy + Debug + Send + Sync;
+    /// A point of a polygon's plane, and what it may be wrong.
+    type Spot: Copy;
     /// A ray at low precision, for quick rejection.
     type Coarse: Copy;
     /// A component of a camera's view vector, not normalised.
@@ -125,6 +136,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     const FULL: Self::Weight;
     /// Radiance 0.
     const BLACK: Self::Radiance;
+    /// No span.
+    const NO_SPAN: Self::Span;
     /// 1/255: a ray that can't change an 8-bit pixel isn't worth sending.
     const CUTOFF: Self::Weight;
 
@@ -199,13 +212,45 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
 
     /// The weights of a triangle's second and third corner at the point (x, y) of its plane,
     /// both relative to its first corner and seen along the plane's dominant axis; `None`
-    /// outside the triangle, which is larger by what a hit over the distance `t` may be wrong.
+    /// outside the triangle, which is larger by what a hit may be wrong over the distance `t`
+    /// on a plane that the ray nears with the speed `slope` > 0.
     fn barycentric(
         form: &Self::Barycentric,
         x: Self::Length,
         y: Self::Length,
         t: Self::Length,
+        slope: Self::Unit,
     ) -> Option<(Self::Weight, Self::Weight)>;
+    /// The same weights wherever the point lies, brought into the triangle: neither they nor
+    /// the first corner's are negative.
+    fn weights(
+        form: &Self::Barycentric,
+        x: Self::Length,
+        y: Self::Length,
+    ) -> (Self::Weight, Self::Weight);
+    /// A stored unit vector.
+    fn unpack(n: &Self::Normal) -> [Self::Unit; 3];
+    /// The point (x, y) of a polygon's plane, relative to its outline's centre, if it lies
+    /// within the outline; `t` and `slope` as for [`barycentric`](Self::barycentric).
+    fn spot(
+        outline: &Self::Outline,
+        x: Self::Length,
+        y: Self::Length,
+        t: Self::Length,
+        slope: Self::Unit,
+    ) -> Option<Self::Spot>;
+    /// Whether a point lies beyond an edge by more than it may be wrong.
+    fn beyond(edge: &Self::Edge, spot: &Self::Spot) -> bool;
+    /// Where the line `w + τ·d`, |w| ≤ 1, enters and leaves the double cone around the line
+    /// `s·axis` at the distance (`waist` + `sin`·s)/`cos` from it: the two τ, not ordered, each
+    /// clipped to ±2; `None` where it misses. 0 ≤ `waist` ≤ 1, and `sin`² + `cos`² = 1.
+    fn cone(
+        w: &[Self::Unit; 3],
+        d: &[Self::Unit; 3],
+        axis: &[Self::Unit; 3],
+        sin_cos: [Self::Unit; 2],
+        waist: Self::Unit,
+    ) -> Option<[Self::Unit; 2]>;
     /// `(1 − b − c)·n[0] + b·n[1] + c·n[2]`, normalised.
     fn blend(n: &[[Self::Unit; 3]; 3], b: Self::Weight, c: Self::Weight) -> [Self::Unit; 3];
 
@@ -258,16 +303,19 @@ macro_rules! for_each_arithmetic {
     ($($items:tt)*) => {
         const _: () = {
             type A = $crate::math::Fixed;
+            #[allow(unused_imports)]
             use $crate::math::fixed_constructors as make;
             $($items)*
         };
         const _: () = {
             type A = f32;
+            #[allow(unused_imports)]
             use $crate::math::f32_constructors as make;
             $($items)*
         };
         const _: () = {
             type A = f64;
+            #[allow(unused_imports)]
             use $crate::math::f64_constructors as make;
             $($items)*
         };

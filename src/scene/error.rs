@@ -10,8 +10,16 @@ pub enum SceneError {
         /// The index it names.
         index: u16,
     },
-    /// There are 2³¹ shapes or more.
-    Shapes,
+    /// A polygon names edges that aren't there.
+    Edges {
+        /// The polygon's index.
+        polygon: u32,
+    },
+    /// The octree is over another number of shapes than there are besides planes.
+    Tree {
+        /// The number of shapes that the tree is over.
+        shapes: u32,
+    },
 }
 
 impl SceneError {
@@ -19,7 +27,8 @@ impl SceneError {
     pub const fn message(self) -> &'static str {
         match self {
             Self::Material { .. } => "a shape or a pattern names a material that isn't there",
-            Self::Shapes => "there are too many shapes",
+            Self::Edges { .. } => "a polygon names edges that aren't there",
+            Self::Tree { .. } => "the octree is over another number of shapes",
         }
     }
 }
@@ -30,7 +39,12 @@ impl fmt::Display for SceneError {
             Self::Material { index } => {
                 write!(f, "a shape or a pattern names material {index}, which isn't there")
             }
-            Self::Shapes => f.write_str(self.message()),
+            Self::Edges { polygon } => {
+                write!(f, "polygon {polygon} names edges that aren't there")
+            }
+            Self::Tree { shapes } => {
+                write!(f, "the octree is over {shapes} shapes, the scene has another number")
+            }
         }
     }
 }

@@ -37,12 +37,14 @@ pub use camera::{Camera, Row, View};
 pub use error::SceneError;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
-pub(crate) use shapes::with_shape;
+pub(crate) use shapes::{for_each_bounded, with_shape};
 
 pub(crate) use light::Incident;
 
 use crate::math::{Arithmetic, Rgb};
-use crate::shape::{MaterialId, Plane, Sphere};
+use crate::octree::Octree;
+use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, PolygonEdge};
+use crate::shape::{SmoothTriangle, Sphere, Triangle};
 
 /// The ambient irradiance E_amb divided by π, the same in the whole scene.
 #[derive(Clone, Copy, Debug)]
@@ -91,8 +93,27 @@ impl<A: Arithmetic> Rules<A> {
 pub struct Parts<'a, A: Arithmetic> {
     /// Spheres.
     pub spheres: &'a [Sphere<A>],
+    /// Flat triangles.
+    pub triangles: &'a [Triangle<A>],
+    /// Triangles with a normal at each corner.
+    pub smooth_triangles: &'a [SmoothTriangle<A>],
+    /// Convex polygons.
+    pub polygons: &'a [Polygon<A>],
+    /// The edges of all polygons.
+    pub edges: &'a [PolygonEdge<A>],
+    /// Boxes along the axes.
+    pub cuboids: &'a [Cuboid<A>],
+    /// Discs.
+    pub discs: &'a [Disc<A>],
+    /// Open cylinders.
+    pub cylinders: &'a [Cylinder<A>],
+    /// Open cones.
+    pub cones: &'a [Cone<A>],
     /// Infinite planes; they lie outside the octree.
     pub planes: &'a [Plane<A>],
+    /// The octree over all shapes but planes. Without one every ray tests every shape, which is
+    /// quicker for fewer than ten.
+    pub tree: Option<Octree<'a, A>>,
     /// Materials, by the index that shapes give.
     pub materials: &'a [Material<A>],
     /// Lights.
@@ -109,7 +130,16 @@ impl<A: Arithmetic> Parts<'_, A> {
     /// Nothing, in the dark: the base for `Parts { spheres: …, ..Parts::EMPTY }`.
     pub const EMPTY: Self = Self {
         spheres: &[],
+        triangles: &[],
+        smooth_triangles: &[],
+        polygons: &[],
+        edges: &[],
+        cuboids: &[],
+        discs: &[],
+        cylinders: &[],
+        cones: &[],
         planes: &[],
+        tree: None,
         materials: &[],
         lights: &[],
         ambient: Ambient([A::BLACK; 3]),
@@ -132,8 +162,13 @@ impl<'a, A: Arithmetic> Scene<'a, A> {
     /// # Errors
     /// What doesn't fit together.
     pub const fn new(parts: Parts<'a, A>) -> Result<Self, SceneError> {
-        if let Err(error) = shapes::check_materials(&parts) {
+        if let Err(error) = shapes::check(&parts) {
             return Err(error);
+        }
+        if let Some(tree) = &parts.tree
+            && tree.shapes() != parts.bounded()
+        {
+            return Err(SceneError::Tree { shapes: tree.shapes() });
         }
         let mut opaque_shadows = true;
         let mut i = 0;

@@ -1,7 +1,8 @@
 //! The shapes of a scene by their numbers: one list a kind, numbered through.
 
 use super::{Parts, SceneError};
-use crate::math::Arithmetic;
+use crate::math::{Arithmetic, for_each_arithmetic};
+use crate::octree::Extent;
 use crate::shape::MaterialId;
 
 /// Evaluates `$body` with `$shape` bound to the shape of number `$id`, whatever its kind; `$none`
@@ -14,14 +15,113 @@ macro_rules! with_shape {
             $body
         } else {
             let index = index.wrapping_sub(parts.spheres.len());
-            if let Some($shape) = parts.planes.get(index) { $body } else { $none }
+            if let Some($shape) = parts.triangles.get(index) {
+                $body
+            } else {
+                let index = index.wrapping_sub(parts.triangles.len());
+                if let Some($shape) = parts.smooth_triangles.get(index) {
+                    $body
+                } else {
+                    let index = index.wrapping_sub(parts.smooth_triangles.len());
+                    if let Some(polygon) = parts.polygons.get(index) {
+                        let $shape = &polygon.view(parts.edges);
+                        $body
+                    } else {
+                        let index = index.wrapping_sub(parts.polygons.len());
+                        if let Some($shape) = parts.cuboids.get(index) {
+                            $body
+                        } else {
+                            let index = index.wrapping_sub(parts.cuboids.len());
+                            if let Some($shape) = parts.discs.get(index) {
+                                $body
+                            } else {
+                                let index = index.wrapping_sub(parts.discs.len());
+                                if let Some($shape) = parts.cylinders.get(index) {
+                                    $body
+                                } else {
+                                    let index = index.wrapping_sub(parts.cylinders.len());
+                                    if let Some($shape) = parts.cones.get(index) {
+                                        $body
+                                    } else {
+                                        let index = index.wrapping_sub(parts.cones.len());
+                                        if let Some($shape) = parts.planes.get(index) {
+                                            $body
+                                        } else {
+                                            $none
+                                        }
+                                    }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
         }
     }};
 }
 pub(crate) use with_shape;
 
-/// Every shape's material must be there.
-pub(super) const fn check_materials<A: Arithmetic>(parts: &Parts<'_, A>) -> Result<(), SceneError> {
+/// `$body` for each bounded shape, numbered through, as in [`with_shape`].
+macro_rules! for_each_bounded {
+    ($parts:expr, ($shape:ident, $id:ident) => $body:expr) => {{
+        let parts = $parts;
+        let mut $id = 0u32;
+        for $shape in parts.spheres {
+            $body;
+            $id += 1;
+        }
+        if $id != parts.bounded() {
+            for $shape in parts.triangles {
+                $body;
+                $id += 1;
+            }
+            for $shape in parts.smooth_triangles {
+                $body;
+                $id += 1;
+            }
+            for polygon in parts.polygons {
+                let $shape = &polygon.view(parts.edges);
+                $body;
+                $id += 1;
+            }
+            for $shape in parts.cuboids {
+                $body;
+                $id += 1;
+            }
+            for $shape in parts.discs {
+                $body;
+                $id += 1;
+            }
+            for $shape in parts.cylinders {
+                $body;
+                $id += 1;
+            }
+            for $shape in parts.cones {
+                $body;
+                $id += 1;
+            }
+        }
+    }};
+}
+pub(crate) use for_each_bounded;
+
+impl<A: Arithmetic> Parts<'_, A> {
+    /// How many shapes there are besides planes: those that the tree is over.
+    #[inline(always)]
+    pub const fn bounded(&self) -> u32 {
+        (self.spheres.len()
+            + self.triangles.len()
+            + self.smooth_triangles.len()
+            + self.polygons.len()
+            + self.cuboids.len()
+            + self.discs.len()
+            + self.cylinders.len()
+            + self.cones.len()) as u32
+    }
+}
+
+/// Every shape's material must be there, and every polygon's edges.
+pub(super) const fn check<A: Arithmetic>(parts: &Parts<'_, A>) -> Result<(), SceneError> {
     macro_rules! check {
         ($($kind:ident),*) => {
             $(
@@ -36,6 +136,64 @@ pub(super) const fn check_materials<A: Arithmetic>(parts: &Parts<'_, A>) -> Resu
             )*
         };
     }
-    check!(spheres, planes);
+    check!(
+        spheres,
+        triangles,
+        smooth_triangles,
+        polygons,
+        cuboids,
+        discs,
+        cylinders,
+        cones,
+        planes
+    );
+    let mut i = 0;
+    while i < parts.polygons.len() {
+        let polygon = &parts.polygons[i];
+        let end = polygon.first_edge() as u64 + polygon.edge_count() as u64;
+        if end > parts.edges.len() as u64 {
+            return Err(SceneError::Edges { polygon: i as u32 });
+        }
+        i += 1;
+    }
     Ok(())
+}
+
+/// Adds the extents of the shapes of one kind.
+macro_rules! add {
+    ($parts:expr, $kind:ident, $extents:ident, $next:ident, $log2_step:expr) => {
+        let mut i = 0;
+        while i < $parts.$kind.len() {
+            $extents[$next] = $parts.$kind[i].extent($log2_step);
+            $next += 1;
+            i += 1;
+        }
+    };
+}
+
+for_each_arithmetic! {
+    impl Parts<'_, A> {
+        /// Where the bounded shapes lie, for [`OctreeBuffer::build`]: in steps of
+        /// 2^`log2_step` for floating point (fixed point's are always 2⁻¹⁶). `N` must be
+        /// [`bounded`](Self::bounded).
+        ///
+        /// [`OctreeBuffer::build`]: crate::octree::OctreeBuffer::build
+        ///
+        /// # Panics
+        /// Where `N` is another number.
+        pub const fn extents<const N: usize>(&self, log2_step: i8) -> [Extent; N] {
+            assert!(N == self.bounded() as usize, "the extents are as many as the bounded shapes");
+            let mut extents = [Extent::Sphere { center: [0; 3], radius: 0 }; N];
+            let mut next = 0;
+            add!(self, spheres, extents, next, log2_step);
+            add!(self, triangles, extents, next, log2_step);
+            add!(self, smooth_triangles, extents, next, log2_step);
+            add!(self, polygons, extents, next, log2_step);
+            add!(self, cuboids, extents, next, log2_step);
+            add!(self, discs, extents, next, log2_step);
+            add!(self, cylinders, extents, next, log2_step);
+            add!(self, cones, extents, next, log2_step);
+            extents
+        }
+    }
 }

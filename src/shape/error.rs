@@ -79,6 +79,15 @@ macro_rules! point {
 }
 pub(crate) use point;
 
+/// Three coordinates as the arithmetic rounds them, in `f64` again.
+macro_rules! rounded_point {
+    ($make:ident, $v:expr) => {{
+        let v = $crate::shape::point!($make, $v);
+        [$make::from_length(v[0]), $make::from_length(v[1]), $make::from_length(v[2])]
+    }};
+}
+pub(crate) use rounded_point;
+
 /// The unit vector along an `f64` vector.
 macro_rules! unit_vector {
     ($make:ident, $v:expr) => {{

@@ -8,14 +8,33 @@
 //! not tested; nor is a convex one (sphere, box, cylinder, cone) left outwards; left inwards, a
 //! convex shape is tested for its far root alone.
 
+mod cone;
+mod cuboid;
+mod cylinder;
+mod disc;
 mod error;
 mod plane;
+mod polygon;
+mod projection;
+mod smooth_triangle;
 mod sphere;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+mod triangle;
 
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use disc::Disc;
 pub use error::ShapeError;
-pub(crate) use error::{ok_or_panic, point, some_or, unit_vector};
+pub(crate) use error::{ok_or_panic, point, rounded_point, some_or, unit_vector};
 pub use plane::Plane;
+pub use polygon::{Polygon, PolygonEdge, PolygonView};
+pub use smooth_triangle::SmoothTriangle;
 pub use sphere::Sphere;
+pub use triangle::Triangle;
 
 use crate::math::Arithmetic;
 
@@ -50,7 +69,8 @@ pub struct Meeting<A: Arithmetic> {
     /// The distance from the ray's origin.
     pub distance: A::Length,
     /// What the shape's [`surface`](Shape::surface) wants to know of the test: for a sphere or a
-    /// cylinder the half chord, negative at the near root.
+    /// cylinder the half chord, negative at the near root; for a cuboid and a cone too it is
+    /// negative where the ray enters.
     pub detail: A::Length,
 }
 
@@ -147,4 +167,33 @@ pub(crate) fn turned<A: Arithmetic>(outward: &[A::Unit; 3], dn: A::Unit) -> Surf
         behind,
         smooth: false,
     }
+}
+
+/// The same where the side is known better than by the sign of a rounded product.
+#[inline(always)]
+pub(crate) fn turned_to<A: Arithmetic>(
+    outward: &[A::Unit; 3],
+    dn: A::Unit,
+    behind: bool,
+) -> Surface<A> {
+    let normal = if behind { crate::math::neg(outward) } else { *outward };
+    let cosine = if behind { dn } else { -dn };
+    let cosine = if cosine > A::NO_UNIT { cosine } else { A::NO_UNIT };
+    Surface { geometric: normal, normal, cosine, behind, smooth: false }
+}
+
+/// The distance to a plane that lies `left` ahead and is neared with the speed `slope`, and that
+/// speed, positive; `None` for a plane that lies behind or beyond `limit`.
+#[inline(always)]
+pub(crate) fn meets_plane<A: Arithmetic>(
+    left: A::Length,
+    slope: A::Unit,
+    limit: A::Length,
+) -> Option<(A::Length, A::Unit)> {
+    let (left, slope) = if left > A::NO_LENGTH { (left, slope) } else { (-left, -slope) };
+    if slope <= A::NO_UNIT {
+        return None;
+    }
+    let distance = A::ratio(left, slope);
+    if distance > A::NO_LENGTH && distance <= limit { Some((distance, slope)) } else { None }
 }

@@ -13,6 +13,7 @@
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
+use crate::octree::Extent;
 
 /// A sphere.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +51,18 @@ for_each_arithmetic! {
                 radius: some_or!(make::radius(if radius < 0.0 { -radius } else { radius }), Size),
                 material: if radius < 0.0 { id.showing_inside() } else { id },
             })
+        }
+
+        /// The sphere itself.
+        pub const fn extent(&self, log2_step: i8) -> Extent {
+            Extent::Sphere {
+                center: [
+                    make::to_grid(self.center[0], log2_step),
+                    make::to_grid(self.center[1], log2_step),
+                    make::to_grid(self.center[2], log2_step),
+                ],
+                radius: make::grid(make::from_radius(&self.radius), log2_step),
+            }
         }
     }
 }
@@ -122,15 +135,16 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         let c = sub(&self.center, &ray.origin);
         let t = A::project(&c, &ray.direction);
         let Some(leg2) = A::leg2(&self.radius, &c, t, &ray.direction) else { return false };
-        // The chord reaches from t − h to t + h: what of the segment 0 to limit does it cover?
+        // The chord reaches from t − h to t + h: does an end lie within the segment 0 to limit?
+        let beyond = |way: A::Length| leg2 > A::square(&self.radius, way);
         if t < A::NO_LENGTH {
-            leg2 > A::square(&self.radius, t)
+            beyond(t) && !beyond(limit - t)
         } else if t > limit {
-            leg2 > A::square(&self.radius, t - limit)
+            beyond(t - limit) && !beyond(t)
         } else {
             // The nearest point lies within the segment; so does a root, unless the segment is
             // all inside.
-            leg2 < A::square(&self.radius, t) || leg2 < A::square(&self.radius, limit - t)
+            !beyond(t) || !beyond(limit - t)
         }
     }
 
@@ -184,6 +198,9 @@ mod tests {
         assert!(blocked([0.0, 0.0, -1.0], 3.5));
         assert!(blocked([0.0, 0.0, -3.0], 3.0));
         assert!(!blocked([0.0, 0.0, -3.0], 0.5));
+        assert!(!blocked([0.0, 0.0, -1.0], 0.5));
+        assert!(!blocked([0.0, 0.0, 1.0], 0.5));
+        assert!(blocked([0.0, 0.0, 1.0], 1.5));
     }
 
     #[test]

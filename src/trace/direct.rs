@@ -2,6 +2,7 @@
 
 use super::visible::visible;
 use crate::math::{Arithmetic, Rgb, rgb};
+use crate::octree::WalkStack;
 use crate::scene::{Incident, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
@@ -25,6 +26,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally>(
     scene: &Scene<'_, A>,
     mut at: Shading<'_, A>,
     sum: &mut Rgb<A::Radiance>,
+    walk: &mut WalkStack<A>,
     tally: &mut T,
 ) {
     let rules = &scene.parts.rules;
@@ -41,7 +43,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally>(
         }
         at.shadow.direction = direction;
         tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, tally) else { continue };
+        let Some(share) = visible(scene, &at.shadow, distance, walk, tally) else { continue };
         let diffuse = at.material.diffuse;
         let mut factor = diffuse.map(|k| A::weight(k, cosine));
         if at.material.shines {

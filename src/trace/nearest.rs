@@ -1,7 +1,8 @@
 //! The nearest hit along a ray.
 
 use crate::math::Arithmetic;
-use crate::scene::Scene;
+use crate::octree::{Visitor, WalkStack};
+use crate::scene::{Parts, Scene, for_each_bounded, with_shape};
 use crate::shape::{Ray, Shape};
 use crate::tally::Tally;
 
@@ -17,14 +18,15 @@ pub struct Hit<A: Arithmetic> {
 }
 
 /// Looks at shapes one by one and keeps the nearest hit.
-struct Nearest<'r, A: Arithmetic, T> {
+struct Nearest<'r, 'a, A: Arithmetic, T> {
+    parts: &'r Parts<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
     best: Hit<A>,
     tally: &'r mut T,
 }
 
-impl<A: Arithmetic, T: Tally> Nearest<'_, A, T> {
+impl<A: Arithmetic, T: Tally> Nearest<'_, '_, A, T> {
     #[inline(always)]
     fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) {
         let leaving = self.ray.leaving;
@@ -42,29 +44,47 @@ impl<A: Arithmetic, T: Tally> Nearest<'_, A, T> {
     }
 }
 
+impl<A: Arithmetic, T: Tally> Visitor<A> for Nearest<'_, '_, A, T> {
+    #[inline(always)]
+    fn limit(&self) -> A::Length {
+        self.best.distance
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, id: u32) -> bool {
+        let parts = self.parts;
+        with_shape!(parts, id, shape => self.test(shape, id), {});
+        false
+    }
+
+    #[inline(always)]
+    fn node(&mut self) {
+        self.tally.node();
+    }
+}
+
 /// The nearest hit in front of `limit`; the lowest number among equals.
 #[inline(always)]
 pub(crate) fn nearest<A: Arithmetic, T: Tally>(
     scene: &Scene<'_, A>,
     ray: &Ray<A>,
     limit: A::Length,
+    walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Hit<A>> {
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
-    let mut search = Nearest { ray, coarse, best, tally };
     let parts = &scene.parts;
-    let bounded = parts.spheres.len() as u32;
+    let mut search = Nearest { parts, ray, coarse, best, tally };
     // Planes first: their distance bounds the walk.
-    let mut id = bounded;
+    let mut id = parts.bounded();
     for plane in parts.planes {
         search.test(plane, id);
         id += 1;
     }
-    let mut id = 0;
-    for sphere in parts.spheres {
-        search.test(sphere, id);
-        id += 1;
+    match &parts.tree {
+        Some(tree) => tree.walk(&ray.origin, &ray.direction, walk, &mut search),
+        None => for_each_bounded!(parts, (shape, id) => search.test(shape, id)),
     }
     if search.best.distance < limit { Some(search.best) } else { None }
 }

@@ -8,6 +8,7 @@ use super::direct::{Shading, direct};
 use super::nearest::{Hit, nearest};
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
+use crate::octree::WalkStack;
 use crate::scene::{Scene, with_shape};
 use crate::shape::{Leaving, Meeting, Ray, Shape};
 use crate::tally::{RayKind, Tally, Term};
@@ -50,8 +51,13 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
     }
 
     /// The nearest hit along a ray, for tools that show more than radiance.
-    pub fn nearest<T: Tally>(&self, ray: &Ray<A>, tally: &mut T) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, tally)
+    pub fn nearest<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: &Ray<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> Option<Hit<A>> {
+        nearest(self.scene, ray, A::FAR, &mut work.walk, tally)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -68,7 +74,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
         let mut waiting = 0usize;
         loop {
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
-            let more = match nearest(self.scene, &path.ray, A::FAR, tally) {
+            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.walk, tally) {
                 None => {
                     let background = self.scene.parts.background.radiance(&path.ray.direction);
                     let radiance = rgb(&background, &path.weight, A::dim);
@@ -78,7 +84,8 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
                 }
                 Some(hit) => {
                     tally.hit::<A>(path.kind, hit.shape, hit.distance);
-                    let (more, other) = self.shade(&mut path, &hit, &mut sum, tally);
+                    let (more, other) =
+                        self.shade(&mut path, &hit, &mut sum, &mut work.walk, tally);
                     if let Some(other) = other
                         && let Some(place) = work.waiting.get_mut(waiting)
                     {
@@ -110,6 +117,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
         path: &mut Path<A>,
         hit: &Hit<A>,
         sum: &mut Rgb<A::Radiance>,
+        walk: &mut WalkStack<A>,
         tally: &mut T,
     ) -> (bool, Option<Path<A>>) {
         let scene = self.scene;
@@ -140,7 +148,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
             weight: &path.weight,
             depth: path.depth,
         };
-        direct(scene, shading, sum, tally);
+        direct(scene, shading, sum, walk, tally);
 
         if path.depth >= self.depth {
             return (false, None);

@@ -2,41 +2,87 @@
 
 use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
-use crate::scene::{Scene, Shadow, with_shape};
+use crate::octree::{Visitor, WalkStack};
+use crate::scene::{Parts, Scene, Shadow, for_each_bounded, with_shape};
 use crate::shape::{Leaving, Meeting, Ray, Shape};
 use crate::tally::{RayKind, Tally};
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
 const MAX_SHEETS: usize = 32;
 
-/// Whether anything lies along the ray nearer than `limit`; its number.
+/// Looks for any shape along a shadow ray.
+struct Occluder<'r, 'a, A: Arithmetic, T> {
+    parts: &'r Parts<'a, A>,
+    ray: &'r Ray<A>,
+    coarse: A::Coarse,
+    limit: A::Length,
+    found: Option<u32>,
+    tally: &'r mut T,
+}
+
+impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
+    /// Tests a shape, and says whether the search is over.
+    #[inline(always)]
+    fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) -> bool {
+        let leaving = self.ray.leaving;
+        if id == leaving.shape && (S::FLAT || !leaving.inwards) {
+            return false;
+        }
+        self.tally.test();
+        let blocked = shape.occludes(self.ray, &self.coarse, id == leaving.shape, self.limit);
+        if blocked {
+            self.found = Some(id);
+        }
+        blocked
+    }
+}
+
+impl<A: Arithmetic, T: Tally> Visitor<A> for Occluder<'_, '_, A, T> {
+    #[inline(always)]
+    fn limit(&self) -> A::Length {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, id: u32) -> bool {
+        let parts = self.parts;
+        with_shape!(parts, id, shape => self.test(shape, id), false)
+    }
+
+    #[inline(always)]
+    fn node(&mut self) {
+        self.tally.node();
+    }
+}
+
+/// The number of any shape along the ray nearer than `limit`.
 #[inline(always)]
 fn occluder<A: Arithmetic, T: Tally>(
     scene: &Scene<'_, A>,
     ray: &Ray<A>,
     limit: A::Length,
+    walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<u32> {
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let leaving = ray.leaving;
-    macro_rules! test {
-        ($shape:expr, $id:expr, $flat:expr) => {
-            if $id != leaving.shape || (!$flat && leaving.inwards) {
-                tally.test();
-                if $shape.occludes(ray, &coarse, $id == leaving.shape, limit) {
-                    return Some($id);
-                }
-            }
-        };
-    }
     let parts = &scene.parts;
-    let mut id = 0;
-    for sphere in parts.spheres {
-        test!(sphere, id, false);
-        id += 1;
+    let mut search = Occluder { parts, ray, coarse, limit, found: None, tally };
+    match &parts.tree {
+        Some(tree) => {
+            tree.walk(&ray.origin, &ray.direction, walk, &mut search);
+            if search.found.is_some() {
+                return search.found;
+            }
+        }
+        None => for_each_bounded!(parts, (shape, id) => if search.test(shape, id) {
+            return search.found;
+        }),
     }
+    let mut id = parts.bounded();
     for plane in parts.planes {
-        test!(plane, id, true);
+        if search.test(plane, id) {
+            return search.found;
+        }
         id += 1;
     }
     None
@@ -48,12 +94,13 @@ pub(super) fn visible<A: Arithmetic, T: Tally>(
     scene: &Scene<'_, A>,
     ray: &Ray<A>,
     limit: A::Length,
+    walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
     if !scene.opaque_shadows {
-        return filtered(scene, ray, limit, tally);
+        return filtered(scene, ray, limit, walk, tally);
     }
-    match occluder(scene, ray, limit, tally) {
+    match occluder(scene, ray, limit, walk, tally) {
         Some(shape) => {
             tally.hit::<A>(RayKind::Shadow, shape, limit);
             None
@@ -68,12 +115,13 @@ fn filtered<A: Arithmetic, T: Tally>(
     scene: &Scene<'_, A>,
     ray: &Ray<A>,
     limit: A::Length,
+    walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
     let mut share = [A::FULL; 3];
     let (mut ray, mut left) = (*ray, limit);
     for _ in 0..MAX_SHEETS {
-        let Some(hit) = nearest(scene, &ray, left, tally) else { return Some(share) };
+        let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
         let p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let (surface, id) = with_shape!(&scene.parts, hit.shape, shape => {

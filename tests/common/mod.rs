@@ -1,5 +1,7 @@
 //! What several tests need: single rays from plain numbers, and numbers back.
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub)]
+
+pub mod scenes;
 
 use whitted::frame::{Renderer, Settings};
 use whitted::math::Arithmetic;

@@ -1,7 +1,8 @@
 //! From `f64` to [`Fixed`](super::Fixed)'s numbers: `None` for what is out of range or no number.
 
-use super::{Aim, FixedBarycentric, FixedEta, FixedExponent, FixedIntensity, FixedRadius};
-use super::{Unit, Weight};
+use super::{Aim, FixedBarycentric, FixedEdge, FixedEta, FixedExponent, FixedIntensity};
+use super::{FixedOutline, FixedRadius, Unit, Weight};
+use crate::math::inverted;
 use ::fixed::types::I16F16;
 
 const fn round(x: f64) -> f64 {
@@ -155,11 +156,11 @@ const fn clip(x: f64) -> i16 {
 
 /// From the triangle's second and third corner relative to the first, along the plane's two
 /// other axes. `None` where the corners lie on a line or the triangle is larger than the range.
-pub(crate) const fn barycentric(b: [f64; 2], c: [f64; 2]) -> Option<FixedBarycentric> {
+pub(crate) const fn barycentric(b: [f64; 2], c: [f64; 2], _reach: f64) -> Option<FixedBarycentric> {
     let det = b[0] * c[1] - b[1] * c[0];
     let largest = max(max(abs(b[0]), abs(b[1])), max(abs(c[0]), abs(c[1])));
-    // A twist of less than 2⁻¹⁴ has no inside at this precision.
-    if !(abs(det) > largest * largest / 65536.0) || !(largest <= 2048.0) {
+    // Flatter than 2⁻¹⁴ it has no inside at this precision: no height is below half a step.
+    if !(abs(det) > largest * largest / 16384.0) || !(largest <= 2048.0) {
         return None;
     }
     let mut shift = 0;
@@ -170,6 +171,72 @@ pub(crate) const fn barycentric(b: [f64; 2], c: [f64; 2]) -> Option<FixedBarycen
     let (second, second_down) = form(c[1] / det, -c[0] / det, shift);
     let (third, third_down) = form(-b[1] / det, b[0] / det, shift);
     Some(FixedBarycentric { second, third, second_down, third_down, shift })
+}
+
+/// The second and third corner again, and by what they may be wrong.
+pub(crate) const fn corners(f: &FixedBarycentric) -> ([f64; 2], [f64; 2], f64) {
+    let step = (1u64 << f.shift) as f64 / 65536.0;
+    let one = [(16384u64 << f.second_down) as f64 * step, (16384u64 << f.third_down) as f64 * step];
+    let second = [f.second[0] as f64 / one[0], f.second[1] as f64 / one[0]];
+    let third = [f.third[0] as f64 / one[1], f.third[1] as f64 / one[1]];
+    inverted(second, third, 0.5 / one[0] + 0.5 / one[1])
+}
+
+pub(crate) const fn normal(n: [f64; 3]) -> [i16; 3] {
+    [clip(n[0] * 16384.0), clip(n[1] * 16384.0), clip(n[2] * 16384.0)]
+}
+
+/// From half the sides of the rectangle. Two coordinates together stay within sixteen bits, so
+/// that an edge's offset does.
+pub(crate) const fn outline(half: [f64; 2], _reach: f64) -> FixedOutline {
+    let largest = max(half[0], half[1]);
+    let mut shift = 0;
+    while shift < 31 && largest * 65536.0 >= 16000.0 * (1u64 << shift) as f64 {
+        shift += 1;
+    }
+    let steps = 65536.0 / (1u64 << shift) as f64;
+    FixedOutline { half: [(half[0] * steps) as u16 + 1, (half[1] * steps) as u16 + 1], shift }
+}
+
+/// Half the sides of the rectangle.
+pub(crate) const fn half(outline: &FixedOutline) -> [f64; 2] {
+    let step = (1u64 << outline.shift) as f64 / 65536.0;
+    [outline.half[0] as f64 * step, outline.half[1] as f64 * step]
+}
+
+/// The half plane that `inward` points into from the point `at`; everything for a null vector.
+pub(crate) const fn edge(inward: [f64; 2], at: [f64; 2], outline: &FixedOutline) -> FixedEdge {
+    let largest = max(abs(inward[0]), abs(inward[1]));
+    if largest <= 0.0 {
+        return FixedEdge { normal: [0, 0], offset: 0 };
+    }
+    let n = [clip(inward[0] / largest * 16384.0), clip(inward[1] / largest * 16384.0)];
+    let steps = 65536.0 / (1u64 << outline.shift) as f64 / 16384.0;
+    // `as` saturates
+    let offset = round(-(n[0] as f64 * at[0] + n[1] as f64 * at[1]) * steps) as i16;
+    FixedEdge { normal: n, offset }
+}
+
+pub(crate) const fn from_length(x: I16F16) -> f64 {
+    x.to_bits() as f64 / 65536.0
+}
+
+pub(crate) const fn from_unit(x: Unit) -> f64 {
+    x.to_bits() as f64 / 131072.0
+}
+
+pub(crate) const fn from_radius(r: &FixedRadius) -> f64 {
+    ((r.mantissa as u64) << r.shift) as f64 / 65536.0
+}
+
+/// A sum of few coordinates: twice their range and more.
+pub(crate) const fn sum(x: f64) -> I16F16 {
+    I16F16::from_bits(round(x * 65536.0) as i32)
+}
+
+/// A coordinate, in range or not, in steps of the grid.
+pub(crate) const fn grid(x: f64, _log2_step: i8) -> i32 {
+    round(x * 65536.0) as i32
 }
 
 /// A coordinate in steps of the octree's grid, which for fixed point are its own steps.

@@ -77,6 +77,29 @@ pub struct FixedBarycentric {
     shift: u8,
 }
 
+/// See [`Arithmetic::Outline`]: half the sides in steps of 2^(`shift` − 16).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedOutline {
+    half: [u16; 2],
+    shift: u8,
+}
+
+/// See [`Arithmetic::Edge`]: `normal·(x, y) + offset·2¹⁴`, not negative inside, x and y in the
+/// outline's steps; the larger component of the normal is ±2¹⁴.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedEdge {
+    normal: [i16; 2],
+    offset: i16,
+}
+
+/// See [`Arithmetic::Spot`].
+#[derive(Clone, Copy, Debug)]
+pub struct FixedSpot {
+    x: i32,
+    y: i32,
+    slack_q14: i32,
+}
+
 /// A ray with Q12 directions and positions in steps of 1/128.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedCoarse {
@@ -135,6 +158,54 @@ fn direction(v: &[i32; 3]) -> ([Unit; 3], u32, u32, i32, i32) {
     ([unit(v[0]), unit(v[1]), unit(v[2])], y_q29, length16, half, down)
 }
 
+/// A length in steps of 2^(s − 16), rounded.
+#[inline(always)]
+fn steps(x: I16F16, s: u8) -> i32 {
+    (x.to_bits() >> s).wrapping_add(x.to_bits() >> (s.saturating_sub(1)) & (s != 0) as i32)
+}
+
+/// By how many steps of 2^(s − 16) a triangle or polygon is larger than it is, so that meshes
+/// have no cracks. A hit is off by a step of a length for each unit of the way and four for the
+/// products, the plane by a quarter of a step at the corners, all that over the slope; two steps
+/// for the forms' coefficients, one for the rounding of both coordinates. Never more than 1024:
+/// a thirtieth of the shape; so at a glance there can be cracks, from a slope of about
+/// 1/64 (small shapes, tens of their size away) down.
+#[inline(always)]
+fn slack_steps(t: I16F16, slope: Unit, s: u8) -> i32 {
+    let off = (((t.to_bits() >> 16) + 4) >> s) + 1;
+    // 1/slope ≤ 2^(z − 14)
+    let (_, z) = root::normalize(slope.to_bits() as u32 | 1);
+    let up = if z > 24 { 10 } else { z.saturating_sub(14) };
+    let off = off << up;
+    3 + if off > 1024 { 1024 } else { off }
+}
+
+/// √x to sixteen bits.
+fn root_of_wide(x: u64) -> i64 {
+    let z = x.leading_zeros() & 62;
+    let down = 32u32.saturating_sub(z);
+    // `down` is even, since z is
+    i64::from(sqrt_u32((x >> down) as u32)) << (down >> 1)
+}
+
+/// `a/b` as a unit, clipped to ±2; 2 with the sign of a for b = 0.
+fn quotient(a: i64, b: i64) -> Unit {
+    let negative = (a < 0) != (b < 0);
+    let (a, b) = (a.unsigned_abs(), b.unsigned_abs());
+    let q = if a >> 1 >= b {
+        1 << 18
+    } else {
+        // a < 2b, so both can be moved until b has 31 bits and a 32.
+        let z = b.leading_zeros();
+        let (a, b) =
+            if z >= 32 { (a << (z - 32), b << (z - 32)) } else { (a >> (32 - z), b >> (32 - z)) };
+        // a/2³²·2²⁸/b of Q32
+        let y_q28 = u64::from(reciprocal_q28(b as u32));
+        (a.wrapping_mul(y_q28) >> 43) as i32
+    };
+    Unit::from_bits(if negative { -q } else { q })
+}
+
 impl FixedRadius {
     #[inline(always)]
     fn bits(&self) -> i32 {
@@ -167,6 +238,10 @@ impl Arithmetic for Fixed {
     type Exponent = FixedExponent;
     type Eta = FixedEta;
     type Barycentric = FixedBarycentric;
+    type Normal = [i16; 3];
+    type Outline = FixedOutline;
+    type Edge = FixedEdge;
+    type Spot = FixedSpot;
     type Coarse = FixedCoarse;
     type Aim = Aim;
     type Span = i32;
@@ -179,6 +254,7 @@ impl Arithmetic for Fixed {
     const NO_WEIGHT: Weight = Weight::ZERO;
     const FULL: Weight = Weight::ONE;
     const BLACK: I16F16 = I16F16::ZERO;
+    const NO_SPAN: i32 = 0;
     const CUTOFF: Weight = Weight::from_bits(64);
 
     #[inline(always)]
@@ -384,15 +460,15 @@ impl Arithmetic for Fixed {
         x: I16F16,
         y: I16F16,
         t: I16F16,
+        slope: Unit,
     ) -> Option<(Weight, Weight)> {
         let s = form.shift & 31;
-        let (x, y) = (x.to_bits() >> s, y.to_bits() >> s);
+        let (x, y) = (steps(x, s), steps(y, s));
         if x as i16 as i32 != x || y as i16 as i32 != y {
             return None;
         }
-        // What a hit may be off, in steps of x and y, weighed by the largest coefficients (2¹⁴
-        // and less).
-        let slack = ((((t.to_bits() >> 16) + 2) >> s) + 1) << 14;
+        // weighed by the largest coefficients (2¹⁴ and less)
+        let slack = slack_steps(t, slope, s) << 14;
         let value = |form: &[i16; 2]| {
             (form[0] as i32).wrapping_mul(x).wrapping_add((form[1] as i32).wrapping_mul(y))
         };
@@ -410,6 +486,101 @@ impl Arithmetic for Fixed {
             return None;
         }
         Some((Weight::from_bits(b), Weight::from_bits(c)))
+    }
+
+    #[inline(always)]
+    fn weights(form: &FixedBarycentric, x: I16F16, y: I16F16) -> (Weight, Weight) {
+        let s = form.shift & 31;
+        let short = |x: I16F16| steps(x, s).clamp(-32768, 32767);
+        let (x, y) = (short(x), short(y));
+        let value = |form: &[i16; 2], down: u8, most: i32| {
+            let sum =
+                (form[0] as i32).wrapping_mul(x).wrapping_add((form[1] as i32).wrapping_mul(y));
+            let w = sum >> (down & 31);
+            if w < 0 {
+                0
+            } else if w > most {
+                most
+            } else {
+                w
+            }
+        };
+        let b = value(&form.second, form.second_down, 16384);
+        let c = value(&form.third, form.third_down, 16384 - b);
+        (Weight::from_bits(b), Weight::from_bits(c))
+    }
+
+    #[inline(always)]
+    fn unpack(n: &[i16; 3]) -> [Unit; 3] {
+        let unit = |x: i16| Unit::from_bits((x as i32) << 3);
+        [unit(n[0]), unit(n[1]), unit(n[2])]
+    }
+
+    #[inline(always)]
+    fn spot(
+        outline: &FixedOutline,
+        x: I16F16,
+        y: I16F16,
+        t: I16F16,
+        slope: Unit,
+    ) -> Option<FixedSpot> {
+        let s = outline.shift & 31;
+        let (x, y) = (steps(x, s), steps(y, s));
+        let slack = slack_steps(t, slope, s);
+        if magnitude(x) as i32 > outline.half[0] as i32 + slack
+            || magnitude(y) as i32 > outline.half[1] as i32 + slack
+        {
+            return None;
+        }
+        Some(FixedSpot { x, y, slack_q14: slack << 14 })
+    }
+
+    #[inline(always)]
+    fn beyond(edge: &FixedEdge, spot: &FixedSpot) -> bool {
+        let p = (edge.normal[0] as i32).wrapping_mul(spot.x);
+        let q = (edge.normal[1] as i32).wrapping_mul(spot.y);
+        p.wrapping_add(q).wrapping_add((edge.offset as i32) << 14) < -spot.slack_q14
+    }
+
+    /// In Q28, from Q17: a cone seldom fills the picture, and its squares cancel. So the
+    /// products are of 64 bits, and only the root and the quotients of sixteen.
+    fn cone(
+        w: &[Unit; 3],
+        d: &[Unit; 3],
+        axis: &[Unit; 3],
+        sin_cos: [Unit; 2],
+        waist: Unit,
+    ) -> Option<[Unit; 2]> {
+        let wide = |x: Unit| i64::from(x.to_bits()) << 11;
+        let times = |x: i64, y: i64| x.wrapping_mul(y) >> 28;
+        let dot = |x: &[i64; 3], y: &[i64; 3]| {
+            times(x[0], y[0]).wrapping_add(times(x[1], y[1])).wrapping_add(times(x[2], y[2]))
+        };
+        let (w, d, axis) = (w.map(wide), d.map(wide), axis.map(wide));
+        let (sin, cos, waist) = (wide(sin_cos[0]), wide(sin_cos[1]), wide(waist));
+        let (s, da) = (dot(&w, &axis), dot(&d, &axis));
+        let across = |v: &[i64; 3], s: i64| {
+            let f = |v: i64, a: i64| v.wrapping_sub(times(s, a));
+            [f(v[0], axis[0]), f(v[1], axis[1]), f(v[2], axis[2])]
+        };
+        let (wp, dp) = (across(&w, s), across(&d, da));
+        let (rs, rd) = (waist.wrapping_add(times(sin, s)), times(sin, da));
+        let cos2 = times(cos, cos);
+        let a = times(cos2, dot(&dp, &dp)).wrapping_sub(times(rd, rd));
+        let b = times(cos2, dot(&wp, &dp)).wrapping_sub(times(rs, rd));
+        let c = times(cos2, dot(&wp, &wp)).wrapping_sub(times(rs, rs));
+        let square = b.wrapping_mul(b).wrapping_sub(a.wrapping_mul(c));
+        if square < 0 {
+            return None;
+        }
+        let h = root_of_wide(square as u64);
+        Some(if b >= 0 {
+            let q = b.wrapping_add(h).wrapping_neg();
+            [quotient(q, a), quotient(c, q)]
+        } else {
+            let q = h.wrapping_sub(b);
+            [quotient(c, q), quotient(q, a)]
+        })
     }
 
     #[inline(always)]

@@ -161,10 +161,10 @@ proptest! {
         let det = (b[0] * c[1] - b[1] * c[0]).abs();
         let size = b.iter().chain(&c).fold(0f64, |a, x| a.max(x.abs()));
         prop_assume!(det > 0.02 * size * size && size > 0.05);
-        let form = make::barycentric(b, c).unwrap();
+        let form = make::barycentric(b, c, 50.0).unwrap();
         let p = |i: usize| I16F16::from_num(u * b[i] + v * c[i]);
         let clear = 0.03;
-        let got = Fixed::barycentric(&form, p(0), p(1), I16F16::from_num(5));
+        let got = Fixed::barycentric(&form, p(0), p(1), I16F16::from_num(5), Unit::ONE);
         let margin = u.min(v).min(1.0 - u - v);
         if margin > clear { prop_assert!(got.is_some()); }
         if margin < -clear { prop_assert!(got.is_none()); }

@@ -1,0 +1,246 @@
+//! Open cone or frustum: the lateral surface between two circles, without caps.
+//!
+//! At the height s over its middle, the cone's radius is (waist + sin α·s)/cos α, α being the angle
+//! between axis and surface, and the points p around the middle are those with
+//! cos²α·|p − s·a|² = (waist + sin α·s)². That stays bounded when α goes to 0, where the form
+//! around the apex doesn't: a cylinder is a cone with α = 0.
+//!
+//! Before the quadratic the ray is moved to where it comes nearest to the middle, and both are
+//! measured in the radius of the sphere around the cone: all operands are components no larger
+//! than 1 (see [`Arithmetic::cone`]), and a ray that misses the sphere is done.
+//!
+//! With F = cos²α·|…|² − (…)² = a·τ² + 2b·τ + c, negative inside, the derivative at the root
+//! (−b ∓ h)/a is ∓2h: the first root always enters and the second always leaves, even where a is
+//! negative and they lie on the double cone's two halves. The heights of the two circles choose
+//! the half.
+
+use super::projection::{dot, minus};
+use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
+use super::{ok_or_panic, point, some_or, turned_to, unit_vector};
+use crate::math::{Arithmetic, for_each_arithmetic, sqrt_f64, sub};
+use crate::octree::Extent;
+
+/// A cone or frustum without caps.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone<A: Arithmetic> {
+    middle: [A::Length; 3],
+    axis: [A::Unit; 3],
+    /// The sphere around both circles.
+    bound: A::Radius,
+    sin_cos: [A::Unit; 2],
+    /// The radius in the middle times cos α, in bounding radii.
+    waist: A::Unit,
+    /// Half the height, in bounding radii.
+    half: A::Unit,
+    material: MaterialId,
+}
+
+for_each_arithmetic! {
+    impl Cone<A> {
+        /// A cone, for scenes in `const`s.
+        ///
+        /// # Panics
+        /// Where [`try_new`](Self::try_new) has an error.
+        pub const fn new(
+            base: [f64; 3],
+            base_radius: f64,
+            apex: [f64; 3],
+            apex_radius: f64,
+            material: u16,
+        ) -> Self {
+            ok_or_panic!(Self::try_new(base, base_radius, apex, apex_radius, material))
+        }
+
+        /// A cone around the line from `base` to `apex`, with the radius at each end; either may be
+        /// 0, and equal ones make a cylinder (which [`Cylinder`](super::Cylinder) traces faster).
+        /// Radii that are negative show the inside alone.
+        ///
+        /// # Errors
+        /// Coordinates or size out of range; both points the same; both radii 0, or of
+        /// different sign.
+        pub const fn try_new(
+            base: [f64; 3],
+            base_radius: f64,
+            apex: [f64; 3],
+            apex_radius: f64,
+            material: u16,
+        ) -> Result<Self, ShapeError> {
+            if material >= MaterialId::LIMIT {
+                return Err(ShapeError::Material);
+            }
+            let id = MaterialId::new(material);
+            let inside = base_radius < 0.0 || apex_radius < 0.0;
+            let (r0, r1) =
+                if inside { (-base_radius, -apex_radius) } else { (base_radius, apex_radius) };
+            let largest = if r0 > r1 { r0 } else { r1 };
+            let sized = r0 >= 0.0 && r1 >= 0.0 && largest > 0.0;
+            if !sized {
+                return Err(ShapeError::Size);
+            }
+            let _ = (point!(make, base), point!(make, apex));
+            let way = minus(apex, base);
+            let length = sqrt_f64(dot(way, way));
+            let slant = sqrt_f64(length * length + (r1 - r0) * (r1 - r0));
+            let (sin, cos) = ((r1 - r0) / slant, length / slant);
+            let middle = [
+                base[0] + way[0] * 0.5,
+                base[1] + way[1] * 0.5,
+                base[2] + way[2] * 0.5,
+            ];
+            // A little larger: the circles lie on the sphere.
+            let bound = sqrt_f64(length * length * 0.25 + largest * largest) * (1.0 + 1e-4);
+            let bound = some_or!(make::radius(bound), Size);
+            let size = make::from_radius(&bound);
+            Ok(Self {
+                middle: point!(make, middle),
+                axis: unit_vector!(make, way),
+                bound,
+                sin_cos: [some_or!(make::unit(sin), Size), some_or!(make::unit(cos), Size)],
+                waist: some_or!(make::unit((r0 + r1) * 0.5 * cos / size), Size),
+                half: some_or!(make::unit(length * 0.5 / size), Size),
+                material: if inside { id.showing_inside() } else { id },
+            })
+        }
+
+        /// The box around both circles.
+        pub const fn extent(&self, log2_step: i8) -> Extent {
+            let size = make::from_radius(&self.bound);
+            let (sin, cos) =
+                (make::from_unit(self.sin_cos[0]), make::from_unit(self.sin_cos[1]));
+            let (waist, half) = (make::from_unit(self.waist), make::from_unit(self.half));
+            let (mut min, mut max) = ([0; 3], [0; 3]);
+            let mut i = 0;
+            while i < 3 {
+                let c = make::from_length(self.middle[i]);
+                let n = make::from_unit(self.axis[i]);
+                let across = sqrt_f64(1.0 - n * n);
+                let (mut low, mut high) = (f64::MAX, -f64::MAX);
+                let mut end = 0;
+                while end < 2 {
+                    let s = if end == 0 { -half } else { half };
+                    // cos is at least 2⁻¹⁷ of anything: length and radius have the same range.
+                    let r = if cos > 0.0 { (waist + sin * s) / cos } else { 1.0 };
+                    let r = if r > 1.0 { 1.0 } else { r };
+                    let reach = size * (if r > 0.0 { r } else { 0.0 }) * across;
+                    let at = c + size * s * n;
+                    low = if at - reach < low { at - reach } else { low };
+                    high = if at + reach > high { at + reach } else { high };
+                    end += 1;
+                }
+                // Radii are stored to 17 bits of the size.
+                let off = size / 32768.0;
+                min[i] = make::grid(low - off, log2_step);
+                max[i] = make::grid(high + off, log2_step);
+                i += 1;
+            }
+            Extent::Box { min, max }
+        }
+    }
+}
+
+impl<A: Arithmetic> Cone<A> {
+    pub(crate) const fn material_id(&self) -> MaterialId {
+        self.material
+    }
+}
+
+impl<A: Arithmetic> Shape<A> for Cone<A> {
+    const FLAT: bool = false;
+
+    #[inline]
+    fn nearest(
+        &self,
+        ray: &Ray<A>,
+        coarse: &A::Coarse,
+        inwards: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        if !A::may_hit(coarse, &self.middle, &self.bound, limit) {
+            return None;
+        }
+        let c = sub(&self.middle, &ray.origin);
+        let closest = A::project(&c, &ray.direction);
+        A::leg2(&self.bound, &c, closest, &ray.direction)?;
+        let size = A::radius(&self.bound);
+        let w = sub(&A::along(&ray.origin, closest, &ray.direction), &self.middle);
+        let w = A::over(&self.bound, &w);
+        let roots = A::cone(&w, &ray.direction, &self.axis, self.sin_cos, self.waist)?;
+        let (s, da) = (A::dot(&w, &self.axis), A::dot(&ray.direction, &self.axis));
+        let at = |root: A::Unit| {
+            let height = s + A::product(root, da);
+            let t = closest + A::scale(size, root);
+            let between = height <= self.half && -height <= self.half;
+            if between && t > A::NO_LENGTH && t <= limit { Some(t) } else { None }
+        };
+        if !inwards
+            && !self.material.inside_only()
+            && let Some(distance) = at(roots[0])
+        {
+            return Some(Meeting { distance, detail: -size });
+        }
+        at(roots[1]).map(|distance| Meeting { distance, detail: size })
+    }
+
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A> {
+        let v = sub(p, &self.middle);
+        let v = A::along(&v, -A::project(&v, &self.axis), &self.axis);
+        let (across, length, _) = A::normalize(&v);
+        let [sin, cos] = self.sin_cos;
+        let outward = if length > A::NO_LENGTH {
+            let f = |x: A::Unit, a: A::Unit| A::product(x, cos) - A::product(a, sin);
+            let [x, y, z] = across;
+            let [ax, ay, az] = self.axis;
+            [f(x, ax), f(y, ay), f(z, az)]
+        } else if sin > A::NO_UNIT {
+            // the very tip
+            crate::math::neg(&self.axis)
+        } else {
+            self.axis
+        };
+        let dn = A::dot(&ray.direction, &outward);
+        turned_to(&outward, dn, meeting.detail > A::NO_LENGTH)
+    }
+
+    #[inline(always)]
+    fn material(&self) -> MaterialId {
+        self.material
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Fixed;
+    use crate::shape::testing::{distance, ray};
+
+    #[test]
+    fn forty_eight_bytes() {
+        assert_eq!(size_of::<Cone<Fixed>>(), 48);
+    }
+
+    #[test]
+    fn wall_tip_and_the_other_half() {
+        let c = Cone::<f64>::new([0.0; 3], 1.0, [0.0, 0.0, 1.0], 0.0, 0);
+        let x = [1.0, 0.0, 0.0];
+        let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a - b).abs() < 1e-9);
+        assert!(near(distance(&c, &ray([-3.0, 0.0, 0.25], x)), 2.25));
+        assert!(near(distance(&c, &ray([0.0, 0.0, 0.25], x)), 0.75));
+        assert_eq!(distance(&c, &ray([3.0, 0.0, 0.25], x)), None);
+        assert_eq!(distance(&c, &ray([-3.0, 0.0, 1.25], x)), None);
+        assert_eq!(distance(&c, &ray([-3.0, 0.0, -0.25], x)), None);
+        // down beside the axis: the double cone's upper half isn't there
+        let down = [0.0, 0.0, -1.0];
+        assert!(near(distance(&c, &ray([0.5, 0.0, 3.0], down)), 2.5));
+        let up = [0.0, 0.0, 1.0];
+        let r = ray([0.5, 0.0, -3.0], up);
+        let m = c.nearest(&r, &(), false, 9.0).unwrap();
+        assert!((m.distance - 3.5).abs() < 1e-9);
+        let s = c.surface(&r, &m, &[0.5, 0.0, 0.5]);
+        let half = 0.5f64.sqrt();
+        assert!(s.behind && (s.normal[0] + half).abs() < 1e-9 && (s.cosine - half).abs() < 1e-9);
+        assert!(near(
+            c.nearest(&ray([-0.75, 0.0, 0.25], x), &(), true, 9.0).map(|m| m.distance),
+            1.5
+        ));
+    }
+}
