@@ -4,5 +4,4 @@
 fn main() {
     println!("cargo::rustc-link-arg-bins=--entry=probe");
     println!("cargo::rustc-link-arg-bins=--gc-sections");
-    println!("cargo::rerun-if-changed=build.rs");
 }

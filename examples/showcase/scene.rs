@@ -27,6 +27,7 @@ pub(crate) static SCENE: Scene<A> = Scene::checked(Parts {
     ambient: Ambient::<A>::new([0.10, 0.11, 0.13]),
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.75, 0.80, 0.85], [0.05, 0.16, 0.45]),
     rules: Rules::WHITTED,
+    ..Parts::EMPTY
 });
 
 /// From a little above, with the horizon in the upper third.

@@ -38,6 +38,7 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
         [128.0 / 255.0, 138.0 / 255.0, 127.0 / 255.0],
     ),
     rules: Rules { cutoff: LIMIT_CUTOFF, ..Rules::WHITTED },
+    ..Parts::EMPTY
 });
 
 pub(super) static CAMERA: Camera<A> = Camera::<A>::from_vectors(
