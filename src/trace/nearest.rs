@@ -1,8 +1,8 @@
 //! The nearest hit along a ray.
 
 use crate::math::Arithmetic;
-use crate::octree::{Visitor, WalkStack};
-use crate::scene::{Parts, Scene, for_each_bounded, with_shape};
+use crate::octree::{Octree, Visitor, WalkStack};
+use crate::scene::{Parts, Scene, for_each_other, with_shape};
 use crate::shape::{Ray, Shape};
 use crate::tally::Tally;
 
@@ -44,6 +44,21 @@ impl<A: Arithmetic, T: Tally> Nearest<'_, '_, A, T> {
     }
 }
 
+// Out of line, so that a scene of some spheres gets the registers for its short loop.
+impl<A: Arithmetic, T: Tally> Nearest<'_, '_, A, T> {
+    #[inline(never)]
+    fn walk(&mut self, tree: &Octree<'_, A>, walk: &mut WalkStack<A>) {
+        let ray = self.ray;
+        tree.walk(&ray.origin, &ray.direction, walk, self);
+    }
+
+    /// Tests all bounded shapes but spheres, the first of which has the number `id`.
+    #[inline(never)]
+    fn others(&mut self, mut id: u32) {
+        for_each_other!(self.parts, id, shape => self.test(shape, id));
+    }
+}
+
 impl<A: Arithmetic, T: Tally> Visitor<A> for Nearest<'_, '_, A, T> {
     #[inline(always)]
     fn limit(&self) -> A::Length {
@@ -82,9 +97,17 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally>(
         search.test(plane, id);
         id += 1;
     }
-    match &parts.tree {
-        Some(tree) => tree.walk(&ray.origin, &ray.direction, walk, &mut search),
-        None => for_each_bounded!(parts, (shape, id) => search.test(shape, id)),
+    if let Some(tree) = &parts.tree {
+        search.walk(tree, walk);
+    } else {
+        let mut id = 0;
+        for sphere in parts.spheres {
+            search.test(sphere, id);
+            id += 1;
+        }
+        if id != parts.bounded() {
+            search.others(id);
+        }
     }
     if search.best.distance < limit { Some(search.best) } else { None }
 }

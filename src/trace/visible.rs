@@ -2,8 +2,8 @@
 
 use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
-use crate::octree::{Visitor, WalkStack};
-use crate::scene::{Parts, Scene, Shadow, for_each_bounded, with_shape};
+use crate::octree::{Octree, Visitor, WalkStack};
+use crate::scene::{Parts, Scene, Shadow, for_each_other, with_shape};
 use crate::shape::{Leaving, Meeting, Ray, Shape};
 use crate::tally::{RayKind, Tally};
 
@@ -34,6 +34,23 @@ impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
             self.found = Some(id);
         }
         blocked
+    }
+}
+
+// Out of line, so that a scene of some spheres gets the registers for its short loop.
+impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
+    #[inline(never)]
+    fn walk(&mut self, tree: &Octree<'_, A>, walk: &mut WalkStack<A>) {
+        let ray = self.ray;
+        tree.walk(&ray.origin, &ray.direction, walk, self);
+    }
+
+    /// Tests all bounded shapes but spheres, the first of which has the number `id`.
+    #[inline(never)]
+    fn others(&mut self, mut id: u32) {
+        for_each_other!(self.parts, id, shape => if self.test(shape, id) {
+            return;
+        });
     }
 }
 
@@ -68,15 +85,22 @@ fn occluder<A: Arithmetic, T: Tally>(
     let parts = &scene.parts;
     let mut search = Occluder { parts, ray, coarse, limit, found: None, tally };
     match &parts.tree {
-        Some(tree) => {
-            tree.walk(&ray.origin, &ray.direction, walk, &mut search);
-            if search.found.is_some() {
-                return search.found;
+        Some(tree) => search.walk(tree, walk),
+        None => {
+            let mut id = 0;
+            for sphere in parts.spheres {
+                if search.test(sphere, id) {
+                    return search.found;
+                }
+                id += 1;
+            }
+            if id != parts.bounded() {
+                search.others(id);
             }
         }
-        None => for_each_bounded!(parts, (shape, id) => if search.test(shape, id) {
-            return search.found;
-        }),
+    }
+    if search.found.is_some() {
+        return search.found;
     }
     let mut id = parts.bounded();
     for plane in parts.planes {

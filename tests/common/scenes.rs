@@ -32,11 +32,7 @@ pub static SCENE: Scene<Fixed> = Scene::checked(Parts {
             ..MaterialSpec::BLACK
         }),
         Material::<Fixed>::new(MaterialSpec {
-            pattern: Some(PatternSpec {
-                cell: [0.7, 0.0, 0.7],
-                offset: [0.1, 0.0, 0.2],
-                other: 4,
-            }),
+            pattern: Some(PatternSpec { cell: [0.7, 0.0, 0.7], offset: [0.1, 0.0, 0.2], other: 4 }),
             ..matt(0.8, 0.8, 0.7)
         }),
         Material::<Fixed>::new(matt(0.1, 0.1, 0.15)),
