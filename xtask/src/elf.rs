@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use object::read::elf::{ElfFile32, FileHeader};
+use addr2line::Loader;
+use object::read::elf::ElfFile32;
 use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SymbolKind};
 
 /// Bytes of a program.
@@ -32,7 +33,7 @@ pub(crate) fn sizes(path: &Path) -> Result<Sizes, String> {
 /// Where a program, linked with its relocations kept, calls the functions that panics start in:
 /// the caller and the callee, with the source lines that were inlined there, the innermost first.
 pub(crate) fn panics(path: &Path) -> Result<Vec<String>, String> {
-    let lines = addr2line_context(path)?;
+    let lines = Loader::new(path).map_err(|error| format!("{}: {error}", path.display()))?;
     with(path, |elf| {
         let mut functions: Vec<_> =
             elf.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text).collect();
@@ -54,13 +55,26 @@ pub(crate) fn panics(path: &Path) -> Result<Vec<String>, String> {
                 if caller.contains("panic") || caller.starts_with("core::") {
                     continue;
                 }
-                found.push(format!("{caller} calls {callee}{}", lines(address)));
+                found.push(format!("{caller} calls {callee}{}", inlined(&lines, address)));
             }
         }
         found.sort();
         found.dedup();
         Ok(found)
     })
+}
+
+/// The source lines behind an address, the innermost first.
+fn inlined(lines: &Loader, address: u64) -> String {
+    let mut text = String::new();
+    let Ok(mut frames) = lines.find_frames(address) else { return text };
+    while let Ok(Some(frame)) = frames.next() {
+        if let Some(place) = frame.location {
+            let (file, line) = (place.file.unwrap_or("?"), place.line.unwrap_or(0));
+            text.push_str(&format!("\n         at {file}:{line}"));
+        }
+    }
+    text
 }
 
 fn name(raw: Result<&str, object::Error>) -> String {
@@ -73,6 +87,6 @@ fn with<T>(
 ) -> Result<T, String> {
     let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let data = std::fs::read(path).map_err(|error| place(&error))?;
-    let elf = ElfFile32::parse(&*data).map_err(|error| place(&error))?;
+    let elf = ElfFile32::<object::Endianness>::parse(&*data).map_err(|error| place(&error))?;
     read(&elf)
 }

@@ -1,11 +1,12 @@
-//! :math::Fixed;n:Fixed point.
+//! Fixed point.
 #![no_std]
 #![no_main]
 
 mod kernel;
 
 use whitted::frame::Rgb565;
-use whitteduse whitted::trace::Work;
+use whitted::math::Fixed;
+use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 
 /// Where linking starts from.

@@ -2,12 +2,12 @@
 //! four spheres, three lights without falloff, reflection and refraction.
 //!
 //! The original sends both child rays from every hit, even where a coefficient is 0; here no ray
-//! is sent for nothing. Its floor ends at |x| = 10 and z = −10 and −30.
+//! is sent for nothing.
 
 use super::A;
 use whitted::scene::{Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec};
 use whitted::scene::{Parts, PatternSpec, Rules, Scene};
-use whitted::shape::{Plane, Sphere};
+use whitted::shape::{Polygon, Sphere};
 
 pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
     spheres: &[
@@ -16,7 +16,8 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
         Sphere::<A>::new([1.5, -0.5, -18.0], 3.0, 2),
         Sphere::<A>::new([7.0, 5.0, -18.0], 4.0, 3),
     ],
-    planes: &[Plane::<A>::new([0.0, 1.0, 0.0], -4.0, 4)],
+    polygons: &[Polygon::<A>::new(&FLOOR, 0, 4)],
+    edges: &Polygon::<A>::edges(&FLOOR),
     materials: &[
         // Ivory, glass, red rubber, mirror.
         material([0.6, 0.3, 0.1, 0.0], [0.4, 0.4, 0.3], 50.0, 1.0),
@@ -42,6 +43,9 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
 
 pub(super) static CAMERA: Camera<A> =
     Camera::<A>::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 60.0);
+
+const FLOOR: [[f64; 3]; 4] =
+    [[-10.0, -4.0, -10.0], [10.0, -4.0, -10.0], [10.0, -4.0, -30.0], [-10.0, -4.0, -30.0]];
 
 /// `albedo` is diffuse, highlight, mirror, transmission; the last three are white.
 const fn material(
