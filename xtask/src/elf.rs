@@ -48,9 +48,8 @@ pub(crate) fn panics(path: &Path) -> Result<Vec<String>, String> {
                     continue;
                 }
                 let next = functions.partition_point(|function| function.address() <= address);
-                let caller = next
-                    .checked_sub(1)
-                    .map_or_else(|| "?".into(), |i| name(functions[i].name()));
+                let caller =
+                    next.checked_sub(1).map_or_else(|| "?".into(), |i| name(functions[i].name()));
                 // Panics call each other; who began is of interest.
                 if caller.contains("panic") || caller.starts_with("core::") {
                     continue;

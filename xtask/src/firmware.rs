@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
+use whitted::tally::Counts;
 use whitted_demo::frame;
 use whitted_demo::job::Job;
-use whitted::tally::Counts;
 
 use crate::machine::{Log, MACHINES, Record};
 use crate::oled;
@@ -35,9 +35,10 @@ pub(crate) fn check(report: &mut Report) {
             });
         }
         if machine.display {
-            report.check(&format!("{}: the display shows the host's picture", machine.core), || {
-                oled::compare(&dump)
-            });
+            report
+                .check(&format!("{}: the display shows the host's picture", machine.core), || {
+                    oled::compare(&dump)
+                });
         }
     }
 }
@@ -54,10 +55,7 @@ fn clock(log: &Log) -> Result<(), String> {
 }
 
 /// The result of a job in a log.
-pub(crate) fn result<'a>(
-    log: &'a Log,
-    job: &Job,
-) -> Result<Record<'a>, String> {
+pub(crate) fn result<'a>(log: &'a Log, job: &Job) -> Result<Record<'a>, String> {
     let name = job.to_string();
     log.records("result")
         .find(|record| record.get("job") == Ok(&name))
@@ -71,11 +69,13 @@ fn same_bits(log: &Log, job: &Job) -> Result<(), String> {
     let checksum = format!("{:016x}", checksum.value());
     let Counts { primary, reflection, transmission, shadow, ambient, .. } = rays;
     let rays = format!("{primary},{reflection},{transmission},{shadow},{ambient}");
-    for (key, here) in [("checksum", checksum), ("rays", rays)] {
-        let there = record.get(key)?;
-        if there != here {
-            return Err(format!("{key} {there}, on the host {here}"));
-        }
+    let there = record.get("checksum")?;
+    if there != checksum {
+        return Err(format!("checksum {there}, on the host {checksum}"));
     }
-    Ok(())
+    // Boards with little flash don't count.
+    match record.get("rays") {
+        Ok(there) if there != rays => Err(format!("rays {there}, on the host {rays}")),
+        _ => Ok(()),
+    }
 }

@@ -13,9 +13,7 @@ const STRICT: [&str; 3] = ["--", "-D", "warnings"];
 pub(crate) fn check(report: &mut Report) {
     let mut step = |name: &str, dir: &Path, words: &str, strict: bool| {
         let args = words.split(' ').chain(STRICT.into_iter().take(if strict { 3 } else { 0 }));
-        report.check(name, || {
-            shell::run(cargo(dir, args).env("RUSTDOCFLAGS", "-D warnings"))
-        });
+        report.check(name, || shell::run(cargo(dir, args).env("RUSTDOCFLAGS", "-D warnings")));
     };
     let (root, boards) = (root(), boards());
     step("format", &root, "fmt --all --check", false);
@@ -55,9 +53,8 @@ fn tests(report: &mut Report, name: &str, dir: &Path, args: &[&str]) {
         Err(error) => return report.add(&format!("{name}: {error}"), 0, 1),
     };
     let text = String::from_utf8_lossy(&output.stdout);
-    let (passed, failed) = text.lines().filter_map(counts).fold((0, 0), |sum, n| {
-        (sum.0 + n.0, sum.1 + n.1)
-    });
+    let (passed, failed) =
+        text.lines().filter_map(counts).fold((0, 0), |sum, n| (sum.0 + n.0, sum.1 + n.1));
     if !output.status.success() {
         println!("{text}");
     }

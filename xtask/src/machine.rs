@@ -86,9 +86,9 @@ pub(crate) struct Log {
 impl Log {
     /// The lines that begin with `word`, without it, as keys and values.
     pub(crate) fn records(&self, word: &str) -> impl Iterator<Item = Record<'_>> {
-        self.lines.iter().filter_map(move |line| {
-            Some(Record(line.strip_prefix(word)?.strip_prefix(' ')?))
-        })
+        self.lines
+            .iter()
+            .filter_map(move |line| Some(Record(line.strip_prefix(word)?.strip_prefix(' ')?)))
     }
 }
 

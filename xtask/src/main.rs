@@ -30,9 +30,7 @@ fn main() -> ExitCode {
         ["setup"] => setup::run(),
         ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
-        ["nopanic"] => {
-            setup::run().and_then(|()| summary(|report| nopanic::check(report)))
-        }
+        ["nopanic"] => setup::run().and_then(|()| summary(|report| nopanic::check(report))),
         _ => Err(USAGE.into()),
     };
     match done {

@@ -1,6 +1,5 @@
 //! The proof that the library can't panic, by the linker: see `boards/nopanic`.
 
-
 use crate::elf;
 use crate::report::Report;
 use crate::shell::{boards, cargo, show};
@@ -16,7 +15,9 @@ pub(crate) fn check(report: &mut Report) {
         Linked::CanPanic => Err(culprits()),
     });
     report.check("nopanic: the control doesn't", || match link("control", &[])? {
-        Linked::Yes => Err("a program that panics has been linked: the probe proves nothing".into()),
+        Linked::Yes => {
+            Err("a program that panics has been linked: the probe proves nothing".into())
+        }
         Linked::CanPanic => Ok(()),
     });
 }
@@ -46,8 +47,7 @@ fn link(bin: &str, extra: &[&str]) -> Result<Linked, String> {
 
 /// Links the probe all the same, and says where it could panic.
 fn culprits() -> String {
-    let program = std::env::temp_dir()
-        .join(format!("whitted-nopanic-{}", std::process::id()));
+    let program = std::env::temp_dir().join(format!("whitted-nopanic-{}", std::process::id()));
     let output = format!("link-arg=-o{}", program.display());
     let extra = ["-C", "link-arg=--defsym=THE_LIBRARY_CAN_PANIC=0"];
     let extra = [extra, ["-C", "link-arg=--emit-relocs"], ["-C", &output]].concat();
@@ -57,7 +57,9 @@ fn culprits() -> String {
     let by_hand = "link with `-C link-arg=--defsym=THE_LIBRARY_CAN_PANIC=0`, disassemble, and \
                    look for calls of functions named panic or fail";
     match found {
-        Ok(found) if found.is_empty() => format!("a panic is reachable, by a way not found: {by_hand}"),
+        Ok(found) if found.is_empty() => {
+            format!("a panic is reachable, by a way not found: {by_hand}")
+        }
         Ok(found) => format!("panics are reachable:\n       {}", found.join("\n       ")),
         Err(error) => format!("a panic is reachable ({error}): {by_hand}"),
     }

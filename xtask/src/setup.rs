@@ -24,7 +24,6 @@ pub(crate) fn run() -> Result<(), String> {
     emulator()
 }
 
-
 fn targets() -> Result<(), String> {
     // Asking the compiler works with toolchains that rustup doesn't know, too.
     let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;

@@ -7,15 +7,15 @@
 //! | `board` | the firmware |
 //! | `job` | what was drawn |
 //! | `checksum` | of the pixels, hexadecimal |
-//! | `rays` | primary, reflection, transmission, shadow, ambient |
 //! | `instructions` | spent tracing, without set-up and checksum |
 //! | `stack` | bytes of stack, row buffer and the tracer's work memory included |
 //! | `static` | bytes of static RAM |
+//! | `rays` | primary, reflection, transmission, shadow, ambient; with the feature `rays` |
 
 use core::panic::PanicInfo;
 
 use cortex_m::Peripherals;
-use semihosting::println;
+use semihosting::{print, println};
 
 use crate::counter::{self, Counter};
 use crate::frame::{self, Watch};
@@ -79,25 +79,16 @@ impl Board {
         let checksum = frame::draw(job, &mut self.counter, |_| {});
         let stack = stack::used(top);
         let instructions = self.instructions();
-        // Counting rays would be counted with the instructions.
-        let (again, rays) = frame::count(job);
-        if again != checksum {
-            println!("error {job}: counting rays changes the picture");
-            exit(false)
-        }
-        println!(
-            "result board={} job={job} checksum={:016x} \
-             rays={},{},{},{},{} \
-             instructions={instructions} stack={stack} static={}",
+        print!(
+            "result board={} job={job} checksum={:016x} instructions={instructions} \
+             stack={stack} static={}",
             self.name,
             checksum.value(),
-            rays.primary,
-            rays.reflection,
-            rays.transmission,
-            rays.shadow,
-            rays.ambient,
             stack::static_bytes(),
         );
+        #[cfg(feature = "rays")]
+        print_rays(job, checksum);
+        println!();
     }
 
     /// Draws on a display, then prints a line `shown …` with what that took, tracing included.
@@ -115,6 +106,21 @@ impl Board {
     fn instructions(&mut self) -> u64 {
         self.counter.take() * 1_000_000 / u64::from(self.clock_khz)
     }
+}
+
+/// Draws the job again, counting: with the first time's instructions, those of counting would have
+/// been counted too.
+#[cfg(feature = "rays")]
+fn print_rays(job: &Job, checksum: crate::checksum::Checksum) {
+    let (again, rays) = frame::count(job);
+    if again != checksum {
+        println!("\nerror {job}: counting rays changes the picture");
+        exit(false)
+    }
+    print!(
+        " rays={},{},{},{},{}",
+        rays.primary, rays.reflection, rays.transmission, rays.shadow, rays.ambient
+    );
 }
 
 /// Ends the emulator, with success or without.

@@ -49,11 +49,7 @@ macro_rules! arithmetic {
                 index_front: any(1.0),
                 index_behind: any(1.5),
                 shadow: any(Shadow::Filtered),
-                pattern: any(Some(PatternSpec {
-                    cell: [1.0; 3],
-                    offset: [0.5; 3],
-                    other: 1,
-                })),
+                pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
             };
             let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
             let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
@@ -63,14 +59,8 @@ macro_rules! arithmetic {
             let (cos_inner, cos_outer) = (any(0.9), any(0.8));
             let point = LightSpec::Point { position, intensity, falloff };
             let directional = LightSpec::Directional { direction, intensity };
-            let spot = LightSpec::Spot {
-                position,
-                direction,
-                intensity,
-                falloff,
-                cos_inner,
-                cos_outer,
-            };
+            let spot =
+                LightSpec::Spot { position, direction, intensity, falloff, cos_inner, cos_outer };
             let lights = any([
                 Light::<$a>::try_new(&point).ok()?,
                 Light::<$a>::try_new(&directional).ok()?,
@@ -98,10 +88,15 @@ macro_rules! arithmetic {
             any(scene.parts());
             any(spheres[0].at(any(spheres[1].center())).radius());
 
-            let camera = Camera::<$a>::try_look_at(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any(1.0));
-            any(camera.ok()?);
             let camera =
-                Camera::<$a>::try_from_vectors(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any([1.0; 3]));
+                Camera::<$a>::try_look_at(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any(1.0));
+            any(camera.ok()?);
+            let camera = Camera::<$a>::try_from_vectors(
+                any([0.0; 3]),
+                any([1.0; 3]),
+                any([0.0; 3]),
+                any([1.0; 3]),
+            );
             render(&scene, &any(camera.ok()?), <$tally>::default())
         }
     };
@@ -131,10 +126,8 @@ fn render<A: Arithmetic, T: Tally + Copy>(
         Renderer::with_tally(scene, camera, settings, &mut work, any(samples), tally).ok()?;
     any(renderer.settings());
     any(renderer.tally_mut());
-    let output = any(Output {
-        tone: Tone::SRGB.with_exposure(any(256)),
-        dither: any(Dither::Ordered),
-    });
+    let output =
+        any(Output { tone: Tone::SRGB.with_exposure(any(256)), dither: any(Dither::Ordered) });
     for (x, y, radiance) in renderer.scan(any(0)..any(9), any(0)..any(9)) {
         any(output.pixel::<A, frame::Rgb888>(&radiance, x, y));
     }
