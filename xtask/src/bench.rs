@@ -2,7 +2,7 @@
 //! shows as a difference.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use crate::elf;
 use crate::firmware::result;
 use crate::machine::{self, MACHINES, Machine, Record};
 use crate::setup;
-use crate::shell::{boards, output, root};
+use crate::shell::{boards, root};
 
 /// Counts move by this with unrelated edits.
 const TOLERANCE: f64 = 0.03;
@@ -231,10 +231,17 @@ fn image(
 }
 
 /// The table as it was committed last, or as it lies there.
-fn committed(path: &PathBuf) -> String {
-    output(Command::new("git").current_dir(root()).args(["show", "HEAD:bench/table.md"]))
-        .or_else(|_| std::fs::read_to_string(path).map_err(|error| error.to_string()))
-        .unwrap_or_default()
+fn committed(path: &Path) -> String {
+    let git = Command::new("git")
+        .current_dir(root())
+        .args(["show", "HEAD:bench/table.md"])
+        .output()
+        .ok()
+        .filter(|output| output.status.success());
+    match git {
+        Some(output) => String::from_utf8_lossy(&output.stdout).into_owned(),
+        None => std::fs::read_to_string(path).unwrap_or_default(),
+    }
 }
 
 /// Fills in the changes, and names what has grown worse by more than the tolerance.

@@ -19,7 +19,9 @@ use whitted::frame::{self, Dither, Output, Renderer, Sampling, Settings, Tone, T
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Material};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
-use whitted::shape::{MaterialId, Plane, Sphere};
+use whitted::octree::{self, Limits, Octree};
+use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
+use whitted::shape::{Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::{Tracer, Work};
 use whitted::{Color, Picture};
@@ -54,6 +56,20 @@ macro_rules! arithmetic {
             let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
             let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
             let planes = any([Plane::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
+            let corners = any([[0.0; 3], [1.0; 3], [2.0; 3]]);
+            let triangles = any([Triangle::<$a>::try_new(corners, any(0)).ok()?; 2]);
+            let smooth = any([SmoothTriangle::<$a>::try_new(corners, any(corners), any(0)).ok()?; 2]);
+            let polygons = any([Polygon::<$a>::try_new(any(&corners), any(0), any(0)).ok()?; 2]);
+            any((polygons[0].first_edge(), polygons[0].edge_count()));
+            let edges = any([Polygon::<$a>::try_edge(any(&corners), any(0)).ok()?; 6]);
+            let cuboids = any([Cuboid::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(0)).ok()?; 2]);
+            let discs =
+                any([Disc::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(1.0), any(0)).ok()?; 2]);
+            let (base, apex) = (any([0.0; 3]), any([1.0; 3]));
+            let cylinders = any([Cylinder::<$a>::try_new(base, apex, any(1.0), any(0)).ok()?; 2]);
+            let cones = any([Cone::<$a>::try_new(base, any(1.0), apex, any(2.0), any(0)).ok()?; 2]);
+            any(Triangle::<$a>::extent_of(corners, any(-16)));
+            any(Polygon::<$a>::extent_of(any(&corners), any(-16)));
             let (position, direction, intensity) = (any([1.0; 3]), any([1.0; 3]), any([9.0; 3]));
             let falloff = any(Falloff::InverseSquare);
             let (cos_inner, cos_outer) = (any(0.9), any(0.8));
@@ -72,15 +88,35 @@ macro_rules! arithmetic {
                 Background::<$a>::try_gradient(any([0.0; 3]), any([0.1; 3]), any([0.1; 3]));
             let parts = Parts {
                 spheres: any(&spheres),
+                triangles: any(&triangles),
+                smooth_triangles: any(&smooth),
+                polygons: any(&polygons),
+                edges: any(&edges),
+                cuboids: any(&cuboids),
+                discs: any(&discs),
+                cylinders: any(&cylinders),
+                cones: any(&cones),
                 planes: any(&planes),
+                tree: any(None),
                 materials: any(&materials),
                 lights: any(&lights),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
                 background: any(background.ok()?),
                 rules: any(Rules::COURSE),
-                ..Parts::EMPTY
             };
-            let scene = Scene::new(any(parts));
+            // A tree over the shapes as they are now, in memory of the caller's.
+            let extents = any(parts).extents::<16>(any(-16));
+            let (mut words, mut scratch) = (any([0; 80]), any([0; 80]));
+            let built = octree::build_into(&extents, &mut words, &mut scratch, any(Limits::DEFAULT));
+            if let Err(error) = &built {
+                any(error.message());
+            }
+            let cube = any(built.ok()?).cube;
+            let tree = Octree::<$a>::try_new(any(&words), any(16), &cube, any(-16));
+            if let Err(error) = &tree {
+                any(error.message());
+            }
+            let scene = Scene::new(any(Parts { tree: any(tree.ok()), ..parts }));
             if let Err(error) = &scene {
                 any(error.message());
             }
@@ -140,7 +176,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
 
     let tracer = any(Tracer::new(scene, any(5)));
     let mut tally = tally;
-    any(tracer.nearest(&ray, &mut tally));
+    any(tracer.nearest(&ray, &mut work, &mut tally));
     any(tracer.radiance(&ray, &mut work, &mut tally));
     let picture = Picture::<A, eg::Gray8, 5>::new(scene, camera, settings, &mut work, &mut []);
     any(picture.ok()?.size());
