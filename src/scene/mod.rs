@@ -154,6 +154,8 @@ pub struct Scene<'a, A: Arithmetic> {
     pub(crate) parts: Parts<'a, A>,
     /// All materials stop shadow rays, so that a shadow ray may end at the first hit.
     pub(crate) opaque_shadows: bool,
+    /// The number of bounded shapes, and of the first plane.
+    pub(crate) bounded: u32,
 }
 
 impl<'a, A: Arithmetic> Scene<'a, A> {
@@ -184,7 +186,7 @@ impl<'a, A: Arithmetic> Scene<'a, A> {
             }
             i += 1;
         }
-        Ok(Self { parts, opaque_shadows })
+        Ok(Self { parts, opaque_shadows, bounded: parts.bounded() })
     }
 
     /// The same for scenes in `static`s: a mistake doesn't compile.

@@ -214,8 +214,8 @@ mod tests {
     use crate::shape::testing::{distance, ray};
 
     #[test]
-    fn forty_eight_bytes() {
-        assert_eq!(size_of::<Cone<Fixed>>(), 48);
+    fn fifty_two_bytes() {
+        assert_eq!(size_of::<Cone<Fixed>>(), 52);
     }
 
     #[test]

@@ -156,8 +156,8 @@ mod tests {
     use crate::shape::testing::{distance, ray};
 
     #[test]
-    fn thirty_six_bytes() {
-        assert_eq!(size_of::<Cylinder<Fixed>>(), 36);
+    fn forty_bytes() {
+        assert_eq!(size_of::<Cylinder<Fixed>>(), 40);
     }
 
     #[test]

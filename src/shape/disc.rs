@@ -109,8 +109,8 @@ mod tests {
     use crate::shape::testing::{distance, ray};
 
     #[test]
-    fn thirty_two_bytes() {
-        assert_eq!(size_of::<Disc<Fixed>>(), 32);
+    fn thirty_six_bytes() {
+        assert_eq!(size_of::<Disc<Fixed>>(), 36);
     }
 
     #[test]

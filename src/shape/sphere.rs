@@ -169,8 +169,8 @@ mod tests {
     const BALL: Sphere<Fixed> = Sphere::<Fixed>::new([0.0, 0.0, 5.0], 1.0, 3);
 
     #[test]
-    fn twenty_bytes_in_flash() {
-        assert_eq!(size_of::<Sphere<Fixed>>(), 20);
+    fn twenty_four_bytes_in_flash() {
+        assert_eq!(size_of::<Sphere<Fixed>>(), 24);
     }
 
     fn ray(o: [f64; 3], d: [f64; 3]) -> Ray<f64> {

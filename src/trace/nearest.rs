@@ -92,7 +92,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally>(
     let parts = &scene.parts;
     let mut search = Nearest { parts, ray, coarse, best, tally };
     // Planes first: their distance bounds the walk.
-    let mut id = parts.bounded();
+    let mut id = scene.bounded;
     for plane in parts.planes {
         search.test(plane, id);
         id += 1;
@@ -105,7 +105,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally>(
             search.test(sphere, id);
             id += 1;
         }
-        if id != parts.bounded() {
+        if id != scene.bounded {
             search.others(id);
         }
     }

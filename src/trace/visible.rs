@@ -94,7 +94,7 @@ fn occluder<A: Arithmetic, T: Tally>(
                 }
                 id += 1;
             }
-            if id != parts.bounded() {
+            if id != scene.bounded {
                 search.others(id);
             }
         }
@@ -102,7 +102,7 @@ fn occluder<A: Arithmetic, T: Tally>(
     if search.found.is_some() {
         return search.found;
     }
-    let mut id = parts.bounded();
+    let mut id = scene.bounded;
     for plane in parts.planes {
         if search.test(plane, id) {
             return search.found;

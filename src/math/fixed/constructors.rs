@@ -41,9 +41,10 @@ pub(crate) const fn radiance(x: f64) -> Option<I16F16> {
     Some(I16F16::from_bits(round(x * 65536.0) as i32))
 }
 
-/// From 2⁻¹² (below it a sphere is a few steps across) to 1024.
+/// From 2⁻¹² (below it a sphere is a few steps across) to 500 (above it the coarse radius would
+/// not fit sixteen bits).
 pub(crate) const fn radius(r: f64) -> Option<FixedRadius> {
-    if !within(r, 1.0 / 4096.0, 1024.0) {
+    if !within(r, 1.0 / 4096.0, 500.0) {
         return None;
     }
     let mut mantissa = r * 65536.0;
@@ -58,9 +59,11 @@ pub(crate) const fn radius(r: f64) -> Option<FixedRadius> {
         missing += 1;
     }
     let reciprocal = round(4294967296.0 / normal) - 65536.0;
+    let steps = (r * 65536.0) as u32 >> super::COARSE_SHIFT;
     Some(FixedRadius {
         mantissa: round(mantissa) as u16,
         reciprocal: if reciprocal > 65535.0 { 65535 } else { reciprocal as u16 },
+        coarse: (steps + (steps >> 11) + super::COARSE_SLACK + 1) as u16,
         shift,
         missing,
     })

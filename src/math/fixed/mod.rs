@@ -12,7 +12,7 @@
 pub(crate) mod constructors;
 mod kernel;
 
-use super::root::{normalize_even, reciprocal_q28, reciprocal_root_q29, sqrt_u32};
+use super::root::{reciprocal_q28, reciprocal_root_q29, sqrt_u32};
 use super::{Arithmetic, log, root};
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
@@ -34,6 +34,8 @@ pub struct FixedRadius {
     mantissa: u16,
     /// 2³²/normalised mantissa − 2¹⁶, seventeen bits with the first implied.
     reciprocal: u16,
+    /// In steps of the coarse test, with what rounding can add to it.
+    coarse: u16,
     shift: u8,
     /// By how much the mantissa is short of sixteen bits.
     missing: u8,
@@ -111,7 +113,7 @@ pub struct FixedCoarse {
 const COARSE_SHIFT: u32 = 9;
 /// What rounding can add to a coarse distance: half a step for the centre and for the origin,
 /// one for each product.
-const COARSE_SLACK: i32 = 3;
+const COARSE_SLACK: u32 = 3;
 /// 1024 units: positions stay below 2048, where products still fit.
 const FAR: i32 = 1 << 26;
 /// 1024 in Q16: no single contribution is larger.
@@ -132,30 +134,46 @@ fn magnitude(x: i32) -> u32 {
     (x ^ (x >> 31)) as u32
 }
 
-/// The unit vector in Q17 along three integers, with Y and the exponents behind it:
-/// 1/|v| = Y·2^(half − down − 16), Y in Q29 from 1 to 2.
+/// Three integers shifted so that the largest magnitude is in 2²⁹ to 2³⁰, and by how much.
 #[inline(always)]
-fn direction(v: &[i32; 3]) -> ([Unit; 3], u32, u32, i32, i32) {
-    // Fifteen bits for the largest component, so that three squares fit a word, and five more
-    // for the first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
+fn align(v: &[i32; 3]) -> ([i32; 3], i32) {
     let (_, z) = root::normalize(magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2]) | 1);
-    let down = 17 - z as i32;
+    let up = z as i32 - 2;
+    if up >= 0 {
+        let up = up & 31;
+        ([v[0] << up, v[1] << up, v[2] << up], up)
+    } else {
+        ([v[0] >> 2, v[1] >> 2, v[2] >> 2], -2)
+    }
+}
+
+/// 1/√s for a sum of squares s in 2²⁸ to 2³²: Y in Q29 from 1 to 2 with 1/√s = Y·2^(half − 16),
+/// half, and s as a fraction, `s·2^(2·half − 32)` in Q32.
+#[inline(always)]
+fn inverse_root(s: u32) -> (u32, u32, u32) {
+    let (m, half) = if s < 1 << 30 { (s << 2, 1) } else { (s, 0) };
+    (reciprocal_root_q29(m), half, m)
+}
+
+/// The unit vector along three integers, to 17 bits, and their length: `root` in Q16 from ½ to 1,
+/// of which `|v|` is `root·2^(1 − half − up)` in 2⁻¹⁶ of what the integers count.
+#[inline(always)]
+fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
+    // Fifteen bits a component, so that three squares fit a word, and five more for the
+    // first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
+    let (x, up) = align(v);
     let (mut square, mut correction) = (0u32, 0i32);
-    for x in v {
-        let x = shift(*x, 5 - down);
-        let (high, low) = (x >> 5, x & 31);
+    for x in &x {
+        let (high, low) = (x >> 15, x >> 10 & 31);
         square = square.wrapping_add(high.wrapping_mul(high) as u32);
         correction = correction.wrapping_add(high.wrapping_mul(low));
     }
-    let square = square.wrapping_add((correction >> 4) as u32) | 1;
-    let (m, z) = normalize_even(square);
-    let y_q29 = reciprocal_root_q29(m);
-    let half = (z >> 1) as i32;
-    let y_q16 = (y_q29 >> 13) as i32;
-    let up = half + 2 - down;
-    let unit = |x: i32| Unit::from_bits(length_times_unit(shift(x, up), y_q16));
-    let length16 = root::root_q16(m, y_q29);
-    ([unit(v[0]), unit(v[1]), unit(v[2])], y_q29, length16, half, down)
+    let (y_q29, half, m) = inverse_root(square.wrapping_add((correction >> 4) as u32));
+    // x·Y·2^(half − 14) in Q17, as (x/2¹²)·(Y·2^half in Q15)/2¹⁷
+    let y = (y_q29 >> (14 - half)) as i32;
+    let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
+    let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
+    ([unit(x[0]), unit(x[1]), unit(x[2])], length)
 }
 
 /// A length in steps of 2^(s − 16), rounded.
@@ -349,16 +367,26 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn normalize(v: &[I16F16; 3]) -> ([Unit; 3], I16F16, FixedInverse) {
-        let (unit, y_q29, length16, half, down) = direction(&lengths(v));
-        let length = shift(length16 as i32, down - half);
-        let inverse = FixedInverse { mantissa_q15: y_q29 >> 14, exponent: half - down };
-        (unit, I16F16::from_bits(length), inverse)
+        // Fifteen bits a component do for the way to a light; rounding them before they are
+        // squared keeps the result's length exact.
+        let (x, up) = align(&lengths(v));
+        let short = |x: i32| x.wrapping_add(1 << 14) >> 15;
+        let h = [short(x[0]), short(x[1]), short(x[2])];
+        let square = |h: i32| h.wrapping_mul(h) as u32;
+        let sum = square(h[0]).wrapping_add(square(h[1])).wrapping_add(square(h[2]));
+        let (y_q29, half, m) = inverse_root(sum);
+        // h·Y·2^(half + 1) in Q17: |h|·Y is at most 2¹⁶, so the product fits at Q14
+        let y_q14 = (y_q29.wrapping_add(1 << 14) >> 15) as i32;
+        let unit = |h: i32| Unit::from_bits(h.wrapping_mul(y_q14) >> (13 - half));
+        let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
+        let inverse = FixedInverse { mantissa_q15: y_q29 >> 14, exponent: half as i32 + up - 15 };
+        ([unit(h[0]), unit(h[1]), unit(h[2])], I16F16::from_bits(length), inverse)
     }
 
     #[inline(always)]
     fn renormalize(v: &[Unit; 3]) -> ([Unit; 3], Unit) {
-        let (unit, _, length16, half, down) = direction(&units(v));
-        (unit, Unit::from_bits(shift(length16 as i32, down - half)))
+        let (unit, length) = unit_along(&units(v));
+        (unit, Unit::from_bits(length))
     }
 
     #[inline(always)]
@@ -435,13 +463,13 @@ impl Arithmetic for Fixed {
         let p = |i: usize| c[i].wrapping_mul(ray.d[i]);
         let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 12;
         // Rounding moves each component of the direction by 2⁻¹³: a sphere that is hit, at most
-        // t + r away, by less than 1.4·(t + r)/2¹².
-        let r = r.bits() >> COARSE_SHIFT;
-        let r = r + COARSE_SLACK + (magnitude(t) >> 11) as i32 + (r >> 11);
-        if t.wrapping_add(r) < 0 || t.wrapping_sub(r) > limit.to_bits() >> COARSE_SHIFT {
+        // t + r away, by less than 1.4·(t + r)/2¹², of which the radius has its part.
+        let r = (r.coarse as i32).wrapping_add(t >> 11);
+        let reach = (r as u32) << 1;
+        let last = (limit.to_bits() >> COARSE_SHIFT) as u32;
+        if t.wrapping_add(r) as u32 > last.wrapping_add(reach) {
             return false;
         }
-        let reach = (r as u32) << 1;
         let mut square = 0u32;
         for i in 0..3 {
             let f = c[i].wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
@@ -685,7 +713,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn sight(v: &[Aim; 3]) -> [Unit; 3] {
-        direction(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
+        unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
     }
 
     #[inline(always)]

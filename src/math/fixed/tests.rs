@@ -42,7 +42,7 @@ proptest! {
     }
 
     #[test]
-    fn directions_to_16_bits_and_lengths_to_14(v in any(1000.0), scale in -9i32..=0) {
+    fn directions_to_16_bits_and_lengths_to_13(v in any(1000.0), scale in -9i32..=0) {
         let v = v.map(|x| x * 2f64.powi(scale));
         let fixed = lengths_of(v);
         let v = len(fixed);
@@ -50,7 +50,7 @@ proptest! {
         prop_assume!(exact > 0.01);
         let (u, length, inverse) = Fixed::normalize(&fixed);
         let bound = 0.5f64.powi(15);
-        prop_assert!((length.to_num::<f64>() - exact).abs() <= 2.0 * exact * bound + 2.0 * LSB);
+        prop_assert!((length.to_num::<f64>() - exact).abs() <= 4.0 * exact * bound + 2.0 * LSB);
         for i in 0..3 {
             prop_assert!((u[i].to_num::<f64>() - v[i] / exact).abs() < 0.5 * bound + 1.5 / 131072.0);
         }
@@ -127,7 +127,7 @@ proptest! {
     }
 
     #[test]
-    fn normals_to_15_bits(r in 0.01..1000.0f64, v in toward()) {
+    fn normals_to_15_bits(r in 0.01..500.0f64, v in toward()) {
         let radius = make::radius(r).unwrap();
         let (_, df) = direction_of(v);
         let p = df.map(|x| I16F16::from_num(x * r));
