@@ -32,8 +32,9 @@ pub(crate) fn sizes(path: &Path) -> Result<Sizes, String> {
 
 /// Where a program, linked with its relocations kept, calls the functions that panics start in:
 /// the caller and the callee, with the source lines that were inlined there, the innermost first.
-pub(crate) fn panics(path: &Path) -> Result<Vec<String>, String> {
-    let lines = Loader::new(path).map_err(|error| format!("{}: {error}", path.display()))?;
+/// The lines come from a twin without relocations.
+pub(crate) fn panics(path: &Path, twin: &Path) -> Result<Vec<String>, String> {
+    let lines = Loader::new(twin).map_err(|error| format!("{}: {error}", twin.display()))?;
     with(path, |elf| {
         let mut functions: Vec<_> =
             elf.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text).collect();

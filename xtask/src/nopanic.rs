@@ -1,5 +1,7 @@
 //! The proof that the library can't panic, by the linker: see `boards/nopanic`.
 
+use std::path::Path;
+
 use crate::elf;
 use crate::report::Report;
 use crate::shell::{boards, cargo, show};
@@ -47,13 +49,23 @@ fn link(bin: &str, extra: &[&str]) -> Result<Linked, String> {
 
 /// Links the probe all the same, and says where it could panic.
 fn culprits() -> String {
-    let program = std::env::temp_dir().join(format!("whitted-nopanic-{}", std::process::id()));
-    let output = format!("link-arg=-o{}", program.display());
-    let extra = ["-C", "link-arg=--defsym=THE_LIBRARY_CAN_PANIC=0"];
-    let extra = [extra, ["-C", "link-arg=--emit-relocs"], ["-C", &output]].concat();
-    let found = link("probe", &extra).and_then(|_| elf::panics(&program));
-    // Whether or not it was written.
-    let _ = std::fs::remove_file(&program);
+    // One program tells the calls by its relocations, the other, of the same layout, the source
+    // lines: relocations that were applied confuse readers of debug information.
+    let place =
+        |name| std::env::temp_dir().join(format!("whitted-nopanic-{}-{name}", std::process::id()));
+    let (calls, lines) = (place("calls"), place("lines"));
+    let link_to = |program: &Path, option: &str| {
+        let output = format!("link-arg=-o{}", program.display());
+        let missing = "link-arg=--defsym=THE_LIBRARY_CAN_PANIC=0";
+        link("probe", &["-C", missing, "-C", option, "-C", &output])
+    };
+    let found = link_to(&calls, "link-arg=--emit-relocs")
+        .and_then(|_| link_to(&lines, "link-arg=--gc-sections"))
+        .and_then(|_| elf::panics(&calls, &lines));
+    for program in [calls, lines] {
+        // Whether or not it was written.
+        let _ = std::fs::remove_file(program);
+    }
     let by_hand = "link with `-C link-arg=--defsym=THE_LIBRARY_CAN_PANIC=0`, disassemble, and \
                    look for calls of functions named panic or fail";
     match found {

@@ -2,7 +2,7 @@
 //! all three arithmetics. If this links, none of them can panic.
 //!
 //! Left out are the constructors for `const` scenes (`new` where there is a `try_new`,
-//! `Scene::checked`, `Tree::build`), whose panics are compile errors, and text for people
+//! `Parts::extents`, `Scene::checked`, `OctreeBuffer`), whose panics are compile errors, and text for people
 //! (`Display`, `Debug`), where the standard library's own formatting can.
 #![no_std]
 #![no_main]
@@ -17,9 +17,9 @@ use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::frame::{self, Dither, Output, Renderer, Sampling, Settings, Tone, Transfer};
 use whitted::math::{self, Arithmetic, Fixed};
+use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Material};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
-use whitted::octree::{self, Limits, Octree};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
 use whitted::shape::{Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
@@ -58,11 +58,13 @@ macro_rules! arithmetic {
             let planes = any([Plane::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
             let corners = any([[0.0; 3], [1.0; 3], [2.0; 3]]);
             let triangles = any([Triangle::<$a>::try_new(corners, any(0)).ok()?; 2]);
-            let smooth = any([SmoothTriangle::<$a>::try_new(corners, any(corners), any(0)).ok()?; 2]);
+            let smooth =
+                any([SmoothTriangle::<$a>::try_new(corners, any(corners), any(0)).ok()?; 2]);
             let polygons = any([Polygon::<$a>::try_new(any(&corners), any(0), any(0)).ok()?; 2]);
             any((polygons[0].first_edge(), polygons[0].edge_count()));
             let edges = any([Polygon::<$a>::try_edge(any(&corners), any(0)).ok()?; 6]);
-            let cuboids = any([Cuboid::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(0)).ok()?; 2]);
+            let cuboids =
+                any([Cuboid::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(0)).ok()?; 2]);
             let discs =
                 any([Disc::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(1.0), any(0)).ok()?; 2]);
             let (base, apex) = (any([0.0; 3]), any([1.0; 3]));
@@ -105,14 +107,26 @@ macro_rules! arithmetic {
                 rules: any(Rules::COURSE),
             };
             // A tree over the shapes as they are now, in memory of the caller's.
-            let extents = any(parts).extents::<16>(any(-16));
+            let step = any(-16);
+            let extents = any([
+                spheres[0].extent(step),
+                triangles[0].extent(step),
+                smooth[0].extent(step),
+                polygons[0].extent(step),
+                cuboids[0].extent(step),
+                discs[0].extent(step),
+                cylinders[0].extent(step),
+                cones[0].extent(step),
+            ]);
+            any(parts.bounded());
             let (mut words, mut scratch) = (any([0; 80]), any([0; 80]));
-            let built = octree::build_into(&extents, &mut words, &mut scratch, any(Limits::DEFAULT));
+            let built =
+                octree::build_into(&extents, &mut words, &mut scratch, any(Limits::DEFAULT));
             if let Err(error) = &built {
                 any(error.message());
             }
             let cube = any(built.ok()?).cube;
-            let tree = Octree::<$a>::try_new(any(&words), any(16), &cube, any(-16));
+            let tree = Octree::<$a>::try_new(any(&words), any(8), &cube, any(-16));
             if let Err(error) = &tree {
                 any(error.message());
             }
