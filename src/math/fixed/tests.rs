@@ -52,7 +52,7 @@ proptest! {
         let bound = 0.5f64.powi(15);
         prop_assert!((length.to_num::<f64>() - exact).abs() <= 4.0 * exact * bound + 2.0 * LSB);
         for i in 0..3 {
-            prop_assert!((u[i].to_num::<f64>() - v[i] / exact).abs() < 0.5 * bound + 1.5 / 131072.0);
+            prop_assert!((u[i].to_num::<f64>() - v[i] / exact).abs() < bound + 1.5 / 131072.0);
         }
         let e = f64::from(inverse.mantissa_q15) / 32768.0 * 2f64.powi(inverse.exponent);
         prop_assert!((e * exact - 1.0).abs() < 2.0 * bound);
