@@ -9,7 +9,6 @@ use whitted_demo::job::Job;
 use crate::machine::{Log, MACHINES, Record};
 use crate::oled;
 use crate::report::Report;
-use crate::shell::boards;
 
 /// A small frame takes a second or two; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(240);
@@ -19,12 +18,12 @@ pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
-        let dump = boards().join("target").join(format!("{}.ppm", machine.board));
-        let Some(log) = report.check(&name, || {
+        let Some((log, dump)) = report.check(&name, || {
             let firmware = machine.build()?;
-            std::fs::create_dir_all(boards().join("target")).map_err(|e| e.to_string())?;
+            let dump = firmware.with_extension("ppm");
+            // A picture from before proves nothing.
             let _ = std::fs::remove_file(&dump);
-            machine.run(&firmware, &jobs, &dump, PATIENCE)
+            Ok((machine.run(&firmware, &jobs, &dump, PATIENCE)?, dump))
         }) else {
             continue;
         };

@@ -35,7 +35,10 @@ pub(crate) fn check(report: &mut Report) {
         // In the board's directory: its own settings hold only there.
         step(&name, &boards.join(machine.board), &words, true);
     }
-    step("clippy, nopanic", &boards.join("nopanic"), "clippy -q --target thumbv6m-none-eabi", true);
+    for name in ["nopanic", "size"] {
+        let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
+        step(&format!("clippy, {name}"), &boards, &words, true);
+    }
     step("documentation", &root, "doc -q --workspace --no-deps", false);
     step("documentation, demo", &boards, "doc -q --package whitted-demo --no-deps", false);
 }

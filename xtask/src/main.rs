@@ -30,7 +30,7 @@ fn main() -> ExitCode {
         ["setup"] => setup::run(),
         ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
-        ["nopanic"] => setup::run().and_then(|()| summary(|report| nopanic::check(report))),
+        ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
         _ => Err(USAGE.into()),
     };
     match done {
@@ -42,8 +42,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// The groups of checks, in the order they run.
-const GROUPS: [(&str, fn(&mut Report)); 4] = [
+/// Checks that belong together.
+type Group = fn(&mut Report);
+
+/// The groups, in the order they run.
+const GROUPS: [(&str, Group); 4] = [
     ("lint", lint::check),
     ("host", lint::host_tests),
     ("nopanic", nopanic::check),
@@ -51,7 +54,7 @@ const GROUPS: [(&str, fn(&mut Report)); 4] = [
 ];
 
 /// The groups that `--only` names, or all.
-fn groups(options: &[&str]) -> Result<Vec<fn(&mut Report)>, String> {
+fn groups(options: &[&str]) -> Result<Vec<Group>, String> {
     if options.is_empty() {
         return Ok(GROUPS.iter().map(|group| group.1).collect());
     }
@@ -66,7 +69,7 @@ fn groups(options: &[&str]) -> Result<Vec<fn(&mut Report)>, String> {
         .collect()
 }
 
-fn test(groups: &[fn(&mut Report)]) -> Result<(), String> {
+fn test(groups: &[Group]) -> Result<(), String> {
     setup::run()?;
     summary(|report| groups.iter().for_each(|group| group(report)))
 }

@@ -34,10 +34,10 @@ impl DrawTarget for Memory {
         I: IntoIterator<Item = Pixel<Gray4>>,
     {
         for Pixel(Point { x, y }, color) in pixels {
-            if let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) {
-                if let Some(pixel) = self.0.get_mut(y).and_then(|row| row.get_mut(x)) {
-                    *pixel = color.luma();
-                }
+            if let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y))
+                && let Some(pixel) = self.0.get_mut(y).and_then(|row| row.get_mut(x))
+            {
+                *pixel = color.luma();
             }
         }
         Ok(())

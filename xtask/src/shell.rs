@@ -62,15 +62,12 @@ pub(crate) fn present(program: &str) -> bool {
 
 /// The command as one would type it.
 pub(crate) fn show(command: &Command) -> String {
-    let words: Vec<_> = std::iter::once(command.get_program())
-        .chain(command.get_args())
-        .map(OsStr::to_string_lossy)
-        .collect();
-    let mut line = words.join(" ");
-    if let Some(dir) = command.get_current_dir().and_then(|dir| dir.strip_prefix(root()).ok()) {
-        if dir != Path::new("") {
-            line = format!("(in {}) {line}", dir.display());
-        }
+    let program = Path::new(command.get_program()).file_name().unwrap_or_default();
+    let words: Vec<_> =
+        std::iter::once(program).chain(command.get_args()).map(OsStr::to_string_lossy).collect();
+    let line = words.join(" ");
+    match command.get_current_dir().and_then(|dir| dir.strip_prefix(root()).ok()) {
+        Some(dir) if dir != Path::new("") => format!("(in {}) {line}", dir.display()),
+        _ => line,
     }
-    line
 }
