@@ -9,20 +9,20 @@ use whitted::scene::{Ambient, Background, Camera, Light, Material, MaterialSpec,
 use whitted::scene::{PatternSpec, Scene};
 use whitted::shape::{Plane, Sphere};
 
-/// x to the right, y up, z away from the camera.
+/// x to the right, y up, z towards the viewer.
 pub(crate) static SCENE: Scene<A> = Scene::checked(Parts {
     spheres: &[
-        Sphere::<A>::new([-1.25, 1.2, 5.2], 1.2, MIRROR),
-        Sphere::<A>::new([0.95, 0.8, 3.6], 0.8, GLASS),
-        Sphere::<A>::new([2.6, 0.7, 5.8], 0.7, RED),
-        Sphere::<A>::new([-0.45, 0.35, 3.0], 0.35, BLUE),
-        Sphere::<A>::new([0.75, 0.45, 7.0], 0.45, YELLOW),
+        Sphere::<A>::new([-1.25, 1.2, -5.2], 1.2, MIRROR),
+        Sphere::<A>::new([0.95, 0.8, -3.6], 0.8, GLASS),
+        Sphere::<A>::new([2.6, 0.7, -5.8], 0.7, RED),
+        Sphere::<A>::new([-0.45, 0.35, -3.0], 0.35, BLUE),
+        Sphere::<A>::new([-2.35, 0.45, -3.9], 0.45, YELLOW),
     ],
     planes: &[Plane::<A>::new([0.0, 1.0, 0.0], 0.0, LIGHT_CELL)],
     materials: &MATERIALS,
     lights: &[
         Light::<A>::point([-4.0, 6.0, 0.0], [38.0, 36.0, 32.0]),
-        Light::<A>::point([5.0, 3.5, 1.0], [7.0, 8.0, 10.0]),
+        Light::<A>::point([5.0, 3.5, -1.0], [7.0, 8.0, 10.0]),
     ],
     ambient: Ambient::<A>::new([0.10, 0.11, 0.13]),
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.75, 0.80, 0.85], [0.05, 0.16, 0.45]),
@@ -32,7 +32,7 @@ pub(crate) static SCENE: Scene<A> = Scene::checked(Parts {
 
 /// From a little above, with the horizon in the upper third.
 pub(crate) static CAMERA: Camera<A> =
-    Camera::<A>::look_at([0.15, 1.9, -1.6], [0.25, 0.75, 4.0], [0.0, 1.0, 0.0], 42.0);
+    Camera::<A>::look_at([0.15, 1.9, 1.6], [0.15, 0.8, -4.0], [0.0, 1.0, 0.0], 42.0);
 
 const MIRROR: u16 = 0;
 const GLASS: u16 = 1;

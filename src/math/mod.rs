@@ -172,8 +172,14 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     /// The unit vector along `v` and the length of `v`, for vectors no longer than 2 (an
     /// interpolated normal, a component of a direction).
     fn renormalize(v: &[Self::Unit; 3]) -> ([Self::Unit; 3], Self::Unit);
-    /// The origin of a ray that leaves the surface at `p`, reached over the distance `t`:
-    /// moved along `n` by what the position may be wrong.
+    /// Puts `p` back on the sphere of radius r, given the normal `n` = (p − centre)/r, which is not
+    /// quite a unit vector where p is not quite on the sphere; makes it one. Floats, whose
+    /// positions are good to a few steps anyway, leave both alone.
+    #[inline(always)]
+    fn settle(_r: &Self::Radius, _n: &mut [Self::Unit; 3], _p: &mut [Self::Length; 3]) {}
+    /// The origin of a ray that leaves the surface at `p`, moved along `n` by what the position
+    /// may be wrong. In fixed point that is a few steps and what the distance `t` adds, over which
+    /// it was reached and since when it wasn't put back on the surface.
     fn leave(p: &[Self::Length; 3], n: &[Self::Unit; 3], t: Self::Length) -> [Self::Length; 3];
 
     /// The radius itself.

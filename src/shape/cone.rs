@@ -181,7 +181,7 @@ impl<A: Arithmetic> Shape<A> for Cone<A> {
         at(roots[1]).map(|distance| Meeting { distance, detail: size })
     }
 
-    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &mut [A::Length; 3]) -> Surface<A> {
         let v = sub(p, &self.middle);
         let v = A::along(&v, -A::project(&v, &self.axis), &self.axis);
         let (across, length, _) = A::normalize(&v);
@@ -198,7 +198,8 @@ impl<A: Arithmetic> Shape<A> for Cone<A> {
             self.axis
         };
         let dn = A::dot(&ray.direction, &outward);
-        turned_to(&outward, dn, meeting.detail > A::NO_LENGTH)
+        let surface = turned_to(&outward, dn, meeting.detail > A::NO_LENGTH);
+        Surface { carried: meeting.distance, ..surface }
     }
 
     #[inline(always)]

@@ -134,7 +134,7 @@ impl<A: Arithmetic> Shape<A> for Cuboid<A> {
     }
 
     #[inline(always)]
-    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, _: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
         let behind = meeting.detail > A::NO_LENGTH;
         let which = if behind { meeting.detail } else { -meeting.detail };
         let axis = if which < mark::<A>(1) {
@@ -151,7 +151,14 @@ impl<A: Arithmetic> Shape<A> for Cuboid<A> {
             1 => [A::NO_UNIT, back, A::NO_UNIT],
             _ => [A::NO_UNIT, A::NO_UNIT, back],
         };
-        Surface { geometric: normal, normal, cosine, behind, smooth: false }
+        Surface {
+            geometric: normal,
+            normal,
+            cosine,
+            behind,
+            smooth: false,
+            carried: A::NO_LENGTH,
+        }
     }
 
     #[inline(always)]

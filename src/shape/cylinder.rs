@@ -135,10 +135,11 @@ impl<A: Arithmetic> Shape<A> for Cylinder<A> {
     }
 
     #[inline(always)]
-    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &mut [A::Length; 3]) -> Surface<A> {
         let v = sub(p, &self.base);
         let v = A::along(&v, -A::project(&v, &self.axis), &self.axis);
-        let outward = A::over(&self.radius, &v);
+        let mut outward = A::over(&self.radius, &v);
+        A::settle(&self.radius, &mut outward, p);
         let dn = A::dot(&ray.direction, &outward);
         turned_to(&outward, dn, meeting.detail >= A::NO_LENGTH)
     }

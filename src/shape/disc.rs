@@ -92,7 +92,7 @@ impl<A: Arithmetic> Shape<A> for Disc<A> {
     }
 
     #[inline(always)]
-    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
         turned(&self.normal, A::dot(&ray.direction, &self.normal))
     }
 

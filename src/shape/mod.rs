@@ -89,6 +89,9 @@ pub struct Surface<A: Arithmetic> {
     pub behind: bool,
     /// Whether the two normals may differ.
     pub smooth: bool,
+    /// The distance along the ray whose rounding the point still carries: null where the point
+    /// has been put back on the surface.
+    pub carried: A::Length,
 }
 
 /// What tracing asks of every primitive.
@@ -115,8 +118,9 @@ pub trait Shape<A: Arithmetic> {
         }
     }
 
-    /// The surface at the point `p` where the ray met the shape.
-    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A>;
+    /// The surface at the point `p` where the ray met the shape; puts `p` back on it where that
+    /// needs to be and is cheap.
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &mut [A::Length; 3]) -> Surface<A>;
 
     /// The material's number, and whether the shape shows its inside only.
     fn material(&self) -> MaterialId;
@@ -158,15 +162,7 @@ impl MaterialId {
 /// `dn` its product with the direction.
 #[inline(always)]
 pub(crate) fn turned<A: Arithmetic>(outward: &[A::Unit; 3], dn: A::Unit) -> Surface<A> {
-    let behind = dn > A::NO_UNIT;
-    let normal = if behind { crate::math::neg(outward) } else { *outward };
-    Surface {
-        geometric: normal,
-        normal,
-        cosine: if behind { dn } else { -dn },
-        behind,
-        smooth: false,
-    }
+    turned_to(outward, dn, dn > A::NO_UNIT)
 }
 
 /// The same where the side is known better than by the sign of a rounded product.
@@ -179,7 +175,14 @@ pub(crate) fn turned_to<A: Arithmetic>(
     let normal = if behind { crate::math::neg(outward) } else { *outward };
     let cosine = if behind { dn } else { -dn };
     let cosine = if cosine > A::NO_UNIT { cosine } else { A::NO_UNIT };
-    Surface { geometric: normal, normal, cosine, behind, smooth: false }
+    Surface {
+        geometric: normal,
+        normal,
+        cosine,
+        behind,
+        smooth: false,
+        carried: A::NO_LENGTH,
+    }
 }
 
 /// The distance to a plane that lies `left` ahead and is neared with the speed `slope`, and that

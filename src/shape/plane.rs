@@ -106,7 +106,7 @@ impl<A: Arithmetic> Shape<A> for Plane<A> {
     }
 
     #[inline(always)]
-    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
         let dn = if self.axis < 3 {
             axis_of(&ray.direction, self.axis)
         } else {

@@ -365,7 +365,7 @@ impl<A: Arithmetic> Shape<A> for PolygonView<'_, A> {
     }
 
     #[inline(always)]
-    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
         self.polygon.plane.surface(self.polygon.axis, ray)
     }
 

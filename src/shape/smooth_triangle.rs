@@ -87,7 +87,7 @@ impl<A: Arithmetic> Shape<A> for SmoothTriangle<A> {
         self.flat.nearest(ray, coarse, inwards, limit)
     }
 
-    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, meeting: &Meeting<A>, p: &mut [A::Length; 3]) -> Surface<A> {
         let flat = self.flat.surface(ray, meeting, p);
         let (b, c) = self.flat.weights(p);
         let [first, second, third] = &self.normals;

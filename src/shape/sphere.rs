@@ -149,8 +149,9 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
     }
 
     #[inline(always)]
-    fn surface(&self, _: &Ray<A>, meeting: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A> {
-        let outward = A::over(&self.radius, &sub(p, &self.center));
+    fn surface(&self, _: &Ray<A>, meeting: &Meeting<A>, p: &mut [A::Length; 3]) -> Surface<A> {
+        let mut outward = A::over(&self.radius, &sub(p, &self.center));
+        A::settle(&self.radius, &mut outward, p);
         turned(&outward, A::part(&self.radius, meeting.detail))
     }
 

@@ -164,7 +164,7 @@ impl<A: Arithmetic> Shape<A> for Owned<A> {
     fn nearest(&self, r: &Ray<A>, c: &A::Coarse, i: bool, l: A::Length) -> Option<Meeting<A>> {
         Shape::nearest(&self.0.view(&self.1), r, c, i, l)
     }
-    fn surface(&self, r: &Ray<A>, m: &Meeting<A>, p: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, r: &Ray<A>, m: &Meeting<A>, p: &mut [A::Length; 3]) -> Surface<A> {
         Shape::surface(&self.0.view(&self.1), r, m, p)
     }
     fn material(&self) -> MaterialId {

@@ -159,7 +159,7 @@ impl<A: Arithmetic> Shape<A> for Triangle<A> {
     }
 
     #[inline(always)]
-    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &[A::Length; 3]) -> Surface<A> {
+    fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
         self.plane.surface(self.axis, ray)
     }
 

@@ -2,6 +2,7 @@
 
 mod direct;
 mod nearest;
+mod probe;
 mod radiance;
 mod visible;
 mod work;

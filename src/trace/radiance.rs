@@ -39,7 +39,7 @@ impl<A: Arithmetic> Path<A> {
 /// Traces rays in a scene, to a depth that its memory was made for.
 #[derive(Debug)]
 pub struct Tracer<'a, A: Arithmetic> {
-    scene: &'a Scene<'a, A>,
+    pub(super) scene: &'a Scene<'a, A>,
     depth: u8,
 }
 
@@ -121,10 +121,10 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
         tally: &mut T,
     ) -> (bool, Option<Path<A>>) {
         let scene = self.scene;
-        let p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
+        let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let (surface, id) = with_shape!(&scene.parts, hit.shape, shape => {
-            (shape.surface(&path.ray, &meeting, &p), shape.material())
+            (shape.surface(&path.ray, &meeting, &mut p), shape.material())
         }, return (false, None));
         let Some(material) = scene.material_at(id, &p) else { return (false, None) };
 
@@ -136,7 +136,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
 
         let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         let outside = Ray {
-            origin: A::leave(&p, &surface.geometric, hit.distance),
+            origin: A::leave(&p, &surface.geometric, surface.carried),
             direction: mirror,
             leaving: Leaving { shape: hit.shape, inwards: surface.behind },
         };
@@ -169,7 +169,7 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
                     }
                     if largest(&weight) >= rules.cutoff {
                         let ray = Ray {
-                            origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
+                            origin: A::leave(&p, &neg(&surface.geometric), surface.carried),
                             direction,
                             leaving: Leaving { shape: hit.shape, inwards: !surface.behind },
                         };

@@ -146,10 +146,10 @@ fn filtered<A: Arithmetic, T: Tally>(
     let (mut ray, mut left) = (*ray, limit);
     for _ in 0..MAX_SHEETS {
         let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
-        let p = A::along(&ray.origin, hit.distance, &ray.direction);
+        let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let (surface, id) = with_shape!(&scene.parts, hit.shape, shape => {
-            (shape.surface(&ray, &meeting, &p), shape.material())
+            (shape.surface(&ray, &meeting, &mut p), shape.material())
         }, return None);
         let material = scene.material_at(id, &p)?;
         match material.shadow {
@@ -163,7 +163,7 @@ fn filtered<A: Arithmetic, T: Tally>(
             tally.hit::<A>(RayKind::Shadow, hit.shape, limit);
             return None;
         }
-        ray.origin = A::leave(&p, &neg(&surface.geometric), hit.distance);
+        ray.origin = A::leave(&p, &neg(&surface.geometric), surface.carried);
         ray.leaving = Leaving { shape: hit.shape, inwards: !surface.behind };
         left = left - hit.distance;
     }

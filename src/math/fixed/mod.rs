@@ -190,7 +190,7 @@ fn steps(x: I16F16, s: u8) -> i32 {
 /// 1/64 (small shapes, tens of their size away) down.
 #[inline(always)]
 fn slack_steps(t: I16F16, slope: Unit, s: u8) -> i32 {
-    let off = (((t.to_bits() >> 16) + 4) >> s) + 1;
+    let off = (4 >> s) + 1;
     // 1/slope ≤ 2^(z − 14)
     let (_, z) = root::normalize(slope.to_bits() as u32 | 1);
     let up = if z > 24 { 10 } else { z.saturating_sub(14) };
@@ -353,16 +353,23 @@ impl Arithmetic for Fixed {
         }
         let (m, z) = root::normalize(b.to_bits() as u32);
         let y_q17 = (reciprocal_q28(m) + (1 << 10)) >> 11;
-        let a = a.to_bits() as u32;
+        let bits = a.to_bits() as u32;
         // a·y/2¹³, that is sixteen times a/b·2^(z − 15); below 2³² since a < 2²⁶
-        let p = (a >> 13).wrapping_mul(y_q17).wrapping_add((a & 0x1fff).wrapping_mul(y_q17) >> 13);
-        if z <= 19 {
-            I16F16::from_bits((p >> (19 - z)) as i32)
+        let p = (bits >> 13)
+            .wrapping_mul(y_q17)
+            .wrapping_add((bits & 0x1fff).wrapping_mul(y_q17) >> 13);
+        let quotient = if z <= 19 {
+            (p >> (19 - z)) as i32
         } else if p >> (26 + 19 - z) != 0 {
-            Self::FAR
+            return Self::FAR;
         } else {
-            I16F16::from_bits((p << (z - 19)) as i32)
-        }
+            (p << (z - 19)) as i32
+        };
+        // That is good to 17 bits. What is left of a is small; its quotient makes the sum good to
+        // a step or two: neighbours in a mesh then meet where they should.
+        let rest = a.to_bits().wrapping_sub(length_times_unit(quotient, b.to_bits()));
+        let rest = rest.wrapping_mul((y_q17 >> 5) as i32) >> (27 - z.min(27));
+        I16F16::from_bits(quotient.wrapping_add(rest))
     }
 
     #[inline(always)]
@@ -390,10 +397,23 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
+        // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
+        let e = (1 << 17) - project(&units(n), &units(n));
+        let half = e >> 1;
+        let off = length_times_unit(r.bits(), half);
+        for (n, p) in n.iter_mut().zip(p) {
+            let unit = n.to_bits();
+            *p = I16F16::from_bits(p.to_bits().wrapping_add(length_times_unit(off, unit)));
+            *n = Unit::from_bits(unit.wrapping_add(unit.wrapping_mul(half) >> 17));
+        }
+    }
+
+    #[inline(always)]
     fn leave(p: &[I16F16; 3], n: &[Unit; 3], t: I16F16) -> [I16F16; 3] {
-        // A direction is 2⁻¹⁸ wrong and a quotient as much: together 2⁻¹⁷ of the way, doubled,
-        // and the roundings of a few products.
-        let step = 4 + (t.to_bits() >> 16);
+        // The roundings of a few products; a direction is 2⁻¹⁸ wrong and a root as much, together
+        // 2⁻¹⁷ of the way, doubled.
+        let step = 6 + (t.to_bits() >> 16);
         let f = |p: I16F16, n: Unit| {
             I16F16::from_bits(p.to_bits().wrapping_add(n.to_bits().wrapping_mul(step) >> 17))
         };

@@ -1,0 +1,234 @@
+//! Placing a scene into an arithmetic's range.
+//!
+//! Floating point takes a scene as it is. Fixed point has one step everywhere, so a scene is
+//! moved to the origin and scaled by a power of two until it fills the range; lengths that the
+//! scene states (checker cells, positions of lights and camera) follow, and the intensity of a
+//! light with falloff grows with the square.
+//!
+//! What the range is filled with:
+//! - The shapes reach from 64 to 128 units from the origin. Where there are endless planes they
+//!   reach from 8 to 16: a plane ends where the range does, and the horizon must not come near.
+//! - Lights and camera lie within ±[`REACH`]. Where one lies farther the scale is smaller.
+//! - A light so far that its direction changes by less than [`PARALLEL`] over the whole scene is
+//!   made directional, which it is to the eye; anything nearer keeps its place. Moving a light
+//!   nearer would change directions by as much as it gains range, so that is never done.
+
+use crate::document::{
+    Background, Body, Camera, Document, Falloff, Light, LightKind, Point, length, scaled, sub,
+};
+
+/// The farthest a light or the camera may lie along an axis: the range is ±1024, and a
+/// difference of two positions must stay below 2048.
+const REACH: f64 = 1000.0;
+
+/// How far shapes may reach from the origin; endless planes need room beyond.
+const SHAPES_REACH: f64 = 128.0;
+const WITH_PLANES_REACH: f64 = 16.0;
+
+/// The sine of the angle under which a far light may see the scene's radius and be called
+/// directional: 2⁻¹², a sixteenth of a grey level at the steepest.
+const PARALLEL: f64 = 1.0 / 4096.0;
+
+/// Where a scene lies in its arithmetic: p becomes (p − center)·2^log2_scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The point that comes to the origin.
+    pub center: Point,
+    /// The scale is 2 to this.
+    pub log2_scale: i32,
+}
+
+impl Placement {
+    /// The scene as it is.
+    pub const IDENTITY: Self = Self { center: [0.0; 3], log2_scale: 0 };
+
+    /// The placement that fills fixed point's range.
+    pub fn filling(document: &Document) -> Self {
+        let Some(bounds) = document.bounds() else { return Self::IDENTITY };
+        let center = bounds.center();
+        let planes = document.shapes.iter().any(|s| matches!(s.body, Body::Plane { .. }));
+        let half = (bounds.side() / 2.0).max(f64::MIN_POSITIVE);
+        let mut log2_scale =
+            power_below(if planes { WITH_PLANES_REACH } else { SHAPES_REACH } / half);
+        let radius = half * 3f64.sqrt();
+        let lights =
+            document.lights.iter().filter(|light| planes || !parallel(light, center, radius));
+        let positions = lights.filter_map(Light::position).chain([document.camera.eye]);
+        for position in positions {
+            let farthest = sub(position, center).map(f64::abs).into_iter().fold(0.0, f64::max);
+            if farthest > 0.0 {
+                log2_scale = log2_scale.min(power_below(REACH / farthest));
+            }
+        }
+        // Whole units of the new scale: coordinates with few digits keep them.
+        let scale = 2f64.powi(log2_scale);
+        Self { center: center.map(|x| (x * scale).round() / scale), log2_scale }
+    }
+
+    /// The scale.
+    pub fn scale(&self) -> f64 {
+        2f64.powi(self.log2_scale)
+    }
+
+    /// A point.
+    pub fn point(&self, p: Point) -> Point {
+        scaled(sub(p, self.center), self.scale())
+    }
+
+    /// A length.
+    pub fn length(&self, l: f64) -> f64 {
+        l * self.scale()
+    }
+
+    /// The whole scene.
+    #[must_use]
+    pub fn place(&self, document: &Document) -> Document {
+        let mut placed = document.clone();
+        if *self == Self::IDENTITY {
+            return placed;
+        }
+        let Camera { eye, look_at, .. } = &mut placed.camera;
+        (*eye, *look_at) = (self.point(*eye), self.point(*look_at));
+        for checker in placed.materials.iter_mut().filter_map(|m| m.checker.as_mut()) {
+            checker.cell = scaled(checker.cell, self.scale());
+            checker.offset = self.point(checker.offset);
+        }
+        for shape in &mut placed.shapes {
+            self.body(&mut shape.body);
+        }
+        let (center, radius) =
+            document.bounds().map_or(([0.0; 3], 0.0), |b| (b.center(), b.side() * 0.75f64.sqrt()));
+        for light in &mut placed.lights {
+            self.light(light, center, radius);
+        }
+        match &mut placed.background {
+            Background::Color(_) | Background::Gradient { .. } => {}
+        }
+        placed
+    }
+
+    fn light(&self, light: &mut Light, center: Point, radius: f64) {
+        if let Some(position) = light.position()
+            && self.point(position).iter().any(|x| x.abs() > REACH)
+            && parallel(light, center, radius)
+        {
+            let direction = sub(center, position);
+            if light.falloff() == Falloff::InverseSquare {
+                let distance = length(direction);
+                light.color = light.color.map(|c| c / distance / distance);
+            }
+            light.kind = LightKind::Directional { direction };
+            return;
+        }
+        match &mut light.kind {
+            LightKind::Directional { .. } => {}
+            LightKind::Point { position, falloff } | LightKind::Spot { position, falloff, .. } => {
+                *position = self.point(*position);
+                if *falloff == Falloff::InverseSquare {
+                    light.color = light.color.map(|c| c * self.scale() * self.scale());
+                }
+            }
+        }
+    }
+
+    fn body(&self, body: &mut Body) {
+        let s = self.scale();
+        match body {
+            Body::Sphere { center, radius } | Body::Disc { center, radius, .. } => {
+                *center = self.point(*center);
+                *radius *= s;
+            }
+            Body::Plane { point, .. } => *point = self.point(*point),
+            Body::Box { low, high } => {
+                *low = self.point(*low);
+                *high = self.point(*high);
+            }
+            Body::Triangle { corners } | Body::SmoothTriangle { corners, .. } => {
+                *corners = corners.map(|c| self.point(c));
+            }
+            Body::Polygon { corners } => corners.iter_mut().for_each(|c| *c = self.point(*c)),
+            Body::Cylinder { base, apex, radius } => {
+                *base = self.point(*base);
+                *apex = self.point(*apex);
+                *radius *= s;
+            }
+            Body::Cone { base, base_radius, apex, apex_radius } => {
+                *base = self.point(*base);
+                *apex = self.point(*apex);
+                *base_radius *= s;
+                *apex_radius *= s;
+            }
+        }
+    }
+}
+
+/// Whether a point light's rays are parallel over the scene. A spot's cone has an edge that
+/// would move.
+fn parallel(light: &Light, center: Point, radius: f64) -> bool {
+    match light.kind {
+        LightKind::Point { position, .. } => radius < PARALLEL * length(sub(position, center)),
+        LightKind::Directional { .. } | LightKind::Spot { .. } => false,
+    }
+}
+
+/// The largest n with 2ⁿ ≤ x, within what any scene can need.
+fn power_below(x: f64) -> i32 {
+    (x.log2().floor() as i32).clamp(-60, 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::{Format, parse};
+
+    fn document(light: &str, more: &str) -> Document {
+        let text = format!(
+            "[camera]\neye = [100, 20, 95]\nlook_at = [100, 20, 100]\n{light}\n\
+             [[material]]\nname = \"a\"\ndiffuse = 0.5\n\
+             [[sphere]]\ncenter = [100, 20, 100]\nradius = 1.5\n{more}"
+        );
+        parse(Format::Toml, text.as_bytes()).unwrap_or_else(|flaw| panic!("{}", flaw.problem))
+    }
+
+    fn light(text: &str) -> String {
+        format!("[[light]]\n{text}")
+    }
+
+    #[test]
+    fn shapes_fill_the_range_around_the_origin() {
+        let document = document(&light("position = [100, 30, 100]\nintensity = 8"), "");
+        let placement = Placement::filling(&document);
+        assert_eq!(placement, Placement { center: [100.0, 20.0, 100.0], log2_scale: 6 });
+        let placed = placement.place(&document);
+        assert_eq!(placed.shapes[0].body, Body::Sphere { center: [0.0; 3], radius: 96.0 });
+        assert_eq!(placed.camera.eye, [0.0, 0.0, -320.0]);
+        assert_eq!(placed.lights[0].position(), Some([0.0, 640.0, 0.0]));
+        // 64 times as far, 1/64² of the light: the intensity makes up for it.
+        assert_eq!(placed.lights[0].color, [8.0 * 4096.0; 3]);
+    }
+
+    #[test]
+    fn endless_planes_keep_the_horizon_away() {
+        let plane = "[[plane]]\npoint = [0, 18, 0]\nnormal = [0, 1, 0]\n";
+        assert_eq!(Placement::filling(&document("", plane)).log2_scale, 3);
+    }
+
+    #[test]
+    fn a_far_light_makes_the_scale_smaller() {
+        let document = document(&light("position = [100, 220, 100]\nfalloff = \"none\""), "");
+        let placement = Placement::filling(&document);
+        assert_eq!(placement.log2_scale, 2);
+        let position = placement.place(&document).lights[0].position();
+        assert_eq!(position, Some([0.0, 800.0, 0.0]));
+    }
+
+    #[test]
+    fn a_light_at_the_horizon_of_all_is_directional() {
+        let document = document(&light("position = [100, 31643, 100]\nintensity = 1e9"), "");
+        let placement = Placement::filling(&document);
+        assert_eq!(placement.log2_scale, 6);
+        let light = placement.place(&document).lights[0];
+        assert!(matches!(light.kind, LightKind::Directional { direction } if direction[1] < 0.0));
+        assert!((light.color[0] - 1e9 / 31623f64.powi(2)).abs() < 1e-9);
+    }
+}

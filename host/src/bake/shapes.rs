@@ -1,0 +1,254 @@
+//! The shapes of a scene by kinds, as the core numbers them, and the octree over them.
+
+use whitted::octree::{BuildError, Built, Cube, Extent, Octree, build_into};
+use whitted::scene::Parts;
+use whitted::shape::{
+    Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
+    Triangle,
+};
+
+use super::Construct;
+use crate::document::{Body, Document, dot, normalized};
+use crate::error::{Flaw, Problem};
+
+/// Below this a list is quicker than a tree.
+const LEAST_FOR_A_TREE: usize = 10;
+
+/// The shapes of one kind, where they lie, and their places in the document.
+#[derive(Debug)]
+pub(super) struct Kind<T> {
+    pub(super) shapes: Vec<T>,
+    extents: Vec<Extent>,
+    origins: Vec<usize>,
+}
+
+impl<T> Default for Kind<T> {
+    fn default() -> Self {
+        Self { shapes: Vec::new(), extents: Vec::new(), origins: Vec::new() }
+    }
+}
+
+impl<T> Kind<T> {
+    fn add(&mut self, shape: T, extent: Option<Extent>, origin: usize) {
+        self.shapes.push(shape);
+        self.extents.extend(extent);
+        self.origins.push(origin);
+    }
+}
+
+/// An octree's memory.
+#[derive(Debug)]
+struct Tree {
+    words: Vec<u32>,
+    cube: Cube,
+    levels: u8,
+}
+
+/// All shapes of a scene, and the tree over them.
+#[derive(Debug)]
+pub(super) struct Shapes<A: Construct> {
+    spheres: Kind<Sphere<A>>,
+    triangles: Kind<Triangle<A>>,
+    smooth_triangles: Kind<SmoothTriangle<A>>,
+    polygons: Kind<Polygon<A>>,
+    edges: Vec<PolygonEdge<A>>,
+    cuboids: Kind<Cuboid<A>>,
+    discs: Kind<Disc<A>>,
+    cylinders: Kind<Cylinder<A>>,
+    cones: Kind<Cone<A>>,
+    planes: Kind<Plane<A>>,
+    log2_step: i8,
+    tree: Option<Tree>,
+}
+
+/// Evaluates `$one` for each kind that a tree is over, in the order of the core's numbers.
+macro_rules! bounded {
+    ($self:expr, $kind:ident => $one:expr) => {{
+        {
+            let $kind = &$self.spheres;
+            $one
+        }
+        {
+            let $kind = &$self.triangles;
+            $one
+        }
+        {
+            let $kind = &$self.smooth_triangles;
+            $one
+        }
+        {
+            let $kind = &$self.polygons;
+            $one
+        }
+        {
+            let $kind = &$self.cuboids;
+            $one
+        }
+        {
+            let $kind = &$self.discs;
+            $one
+        }
+        {
+            let $kind = &$self.cylinders;
+            $one
+        }
+        {
+            let $kind = &$self.cones;
+            $one
+        }
+    }};
+}
+
+impl<A: Construct> Shapes<A> {
+    /// Makes all shapes of a document that has been placed, and the tree.
+    pub(super) fn new(document: &Document) -> Result<Self, Flaw> {
+        let mut shapes = Self {
+            spheres: Kind::default(),
+            triangles: Kind::default(),
+            smooth_triangles: Kind::default(),
+            polygons: Kind::default(),
+            edges: Vec::new(),
+            cuboids: Kind::default(),
+            discs: Kind::default(),
+            cylinders: Kind::default(),
+            cones: Kind::default(),
+            planes: Kind::default(),
+            log2_step: step(document),
+            tree: None,
+        };
+        for (index, shape) in document.shapes.iter().enumerate() {
+            let refuse = |e| super::refused::<A>(shape.body.name(), e, Some(shape.line));
+            let material = u16::try_from(shape.material).map_err(|_| refuse(ShapeError::Material));
+            shapes.add(&shape.body, material?, index).map_err(refuse)?;
+        }
+        shapes.grow()?;
+        Ok(shapes)
+    }
+
+    fn add(&mut self, body: &Body, material: u16, index: usize) -> Result<(), ShapeError> {
+        let step = self.log2_step;
+        match body {
+            Body::Sphere { center, radius } => {
+                let made = A::new_sphere(*center, *radius, material)?;
+                self.spheres.add(made, Some(A::sphere_extent(&made, step)), index);
+            }
+            Body::Plane { point, normal } => {
+                let offset = normalized(*normal).map_or(0.0, |n| dot(n, *point));
+                self.planes.add(A::new_plane(*normal, offset, material)?, None, index);
+            }
+            Body::Disc { center, normal, radius } => {
+                let made = A::new_disc(*center, *normal, *radius, material)?;
+                self.discs.add(made, Some(A::disc_extent(&made, step)), index);
+            }
+            Body::Box { low, high } => {
+                let made = A::new_cuboid(*low, *high, material)?;
+                self.cuboids.add(made, Some(A::cuboid_extent(&made, step)), index);
+            }
+            Body::Triangle { corners } => {
+                let made = A::new_triangle(*corners, material)?;
+                self.triangles.add(made, Some(A::triangle_extent(*corners, step)), index);
+            }
+            Body::SmoothTriangle { corners, normals } => {
+                let made = A::new_smooth_triangle(*corners, *normals, material)?;
+                self.smooth_triangles.add(made, Some(A::triangle_extent(*corners, step)), index);
+            }
+            Body::Polygon { corners } => {
+                let made = A::new_polygon(corners, self.edges.len() as u32, material)?;
+                let edges = (0..corners.len()).map(|i| A::new_polygon_edge(corners, i));
+                let edges = edges.collect::<Result<Vec<_>, _>>()?;
+                self.edges.extend(edges);
+                self.polygons.add(made, Some(A::polygon_extent(corners, step)), index);
+            }
+            Body::Cylinder { base, apex, radius } => {
+                let made = A::new_cylinder(*base, *apex, *radius, material)?;
+                self.cylinders.add(made, Some(A::cylinder_extent(&made, step)), index);
+            }
+            Body::Cone { base, base_radius, apex, apex_radius } => {
+                let made = A::new_cone(*base, *base_radius, *apex, *apex_radius, material)?;
+                self.cones.add(made, Some(A::cone_extent(&made, step)), index);
+            }
+        }
+        Ok(())
+    }
+
+    /// Builds the tree, in as much memory as it takes.
+    fn grow(&mut self) -> Result<(), Flaw> {
+        let mut extents = Vec::new();
+        bounded!(self, kind => extents.extend_from_slice(&kind.extents));
+        if extents.len() < LEAST_FOR_A_TREE {
+            return Ok(());
+        }
+        let mut room = 8 * extents.len();
+        loop {
+            let (mut words, mut scratch) = (vec![0; room], vec![0; room]);
+            match build_into(&extents, &mut words, &mut scratch, A::LIMITS) {
+                Ok(Built { words: used, cube, levels, .. }) => {
+                    words.truncate(used);
+                    self.tree = Some(Tree { words, cube, levels });
+                    return Ok(());
+                }
+                // More than this no tree needs that is worth having.
+                Err(BuildError::Words | BuildError::Scratch) if room < 4096 * extents.len() => {
+                    room *= 2;
+                }
+                Err(error) => return Err(unfit(&error)),
+            }
+        }
+    }
+
+    /// The shapes and the tree, as the core wants them; the rest is empty.
+    pub(super) fn parts(&self) -> Result<Parts<'_, A>, Flaw> {
+        let tree = |t| {
+            let t: &Tree = t;
+            let mut shapes = 0;
+            bounded!(self, kind => shapes += kind.shapes.len());
+            let tree: Result<Octree<'_, A>, _> =
+                A::new_octree(&t.words, shapes, &t.cube, self.log2_step);
+            tree.map_err(|error| unfit(&error))
+        };
+        Ok(Parts {
+            spheres: &self.spheres.shapes,
+            triangles: &self.triangles.shapes,
+            smooth_triangles: &self.smooth_triangles.shapes,
+            polygons: &self.polygons.shapes,
+            edges: &self.edges,
+            cuboids: &self.cuboids.shapes,
+            discs: &self.discs.shapes,
+            cylinders: &self.cylinders.shapes,
+            cones: &self.cones.shapes,
+            planes: &self.planes.shapes,
+            tree: self.tree.as_ref().map(tree).transpose()?,
+            ..Parts::EMPTY
+        })
+    }
+
+    /// The document's index of the shape of this number.
+    pub(super) fn origin(&self, shape: u32) -> Option<usize> {
+        let mut left = shape as usize;
+        bounded!(self, kind => {
+            if let Some(&origin) = kind.origins.get(left) {
+                return Some(origin);
+            }
+            left -= kind.origins.len();
+        });
+        self.planes.origins.get(left).copied()
+    }
+
+    /// Words and levels of the tree, if there is one.
+    pub(super) fn tree(&self) -> Option<(usize, u8)> {
+        self.tree.as_ref().map(|tree| (tree.words.len(), tree.levels))
+    }
+}
+
+fn unfit(error: &dyn std::error::Error) -> Flaw {
+    let (what, why) = ("the octree".to_string(), error.to_string());
+    Problem::Unrepresentable { what, why }.anywhere()
+}
+
+/// The grid that floating-point octrees are built on: its farthest coordinate is 2²⁵ to 2²⁶.
+fn step(document: &Document) -> i8 {
+    let Some(bounds) = document.bounds() else { return -26 };
+    let coordinates = bounds.low.into_iter().chain(bounds.high);
+    let farthest = coordinates.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
+    (farthest.log2().ceil() as i32 - 26).clamp(-80, 60) as i8
+}

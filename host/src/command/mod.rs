@@ -1,0 +1,178 @@
+//! What the command line says, and which command does it.
+
+mod check;
+mod progress;
+mod render;
+mod trace;
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use whitted_host::document::Size;
+use whitted_host::error::SceneError;
+use whitted_host::render::Sampling;
+use whitted_host::show::Show;
+
+/// Classic ray tracing for microcontrollers, on the host: renders, checks and explains scenes.
+///
+/// Without a command it renders the showcase: into the terminal and into whitted.png.
+#[derive(Parser)]
+#[command(version, name = "whitted")]
+struct Line {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Say nothing that isn't an error
+    #[arg(short, long, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a scene to a PNG
+    Render(render::Options),
+    /// Read and validate a scene, and say what is in it
+    Check {
+        /// The scene: .toml or .nff
+        scene: PathBuf,
+    },
+    /// Print the tree of rays of one pixel
+    Trace(trace::Options),
+}
+
+/// What a scene is rendered with.
+#[derive(Args, Clone)]
+struct With {
+    /// The picture's size, in pixels [default: the scene's, or 320x240]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<Size>,
+    /// The numbers to compute with
+    #[arg(long, value_enum, default_value = "f64")]
+    arith: Arith,
+    /// The deepest tree of rays; the camera's ray has depth 1 [default: the scene's]
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=64))]
+    depth: Option<u8>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Arith {
+    /// Fixed point, as on chips without a floating-point unit
+    Fixed,
+    /// Single precision, as on chips with one
+    F32,
+    /// Double precision, the reference
+    F64,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SamplingName {
+    /// One ray through each pixel's centre
+    Center,
+    /// One through each pixel corner, four averaged to a pixel
+    Corners,
+}
+
+impl From<SamplingName> for Sampling {
+    fn from(name: SamplingName) -> Self {
+        match name {
+            SamplingName::Center => Self::Center,
+            SamplingName::Corners => Self::Corners,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ShowName {
+    /// Distances, near ones bright
+    Depth,
+    /// Normals, x y z as red green blue
+    Normal,
+    /// Rays each pixel took
+    Rays,
+    /// Nodes of the octree each pixel visited
+    Octree,
+}
+
+impl From<ShowName> for Show {
+    fn from(name: ShowName) -> Self {
+        match name {
+            ShowName::Depth => Self::Depth,
+            ShowName::Normal => Self::Normal,
+            ShowName::Rays => Self::Rays,
+            ShowName::Octree => Self::Octree,
+        }
+    }
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    let side = |t: &str| t.parse().ok().filter(|n| (1..=Size::LARGEST).contains(n));
+    text.split_once('x')
+        .and_then(|(w, h)| Some(Size { width: side(w)?, height: side(h)? }))
+        .ok_or_else(|| format!("write WxH, each 1 to {}, as in 320x240", Size::LARGEST))
+}
+
+/// Why a command didn't do what it should.
+enum Failure {
+    /// The input is at fault.
+    Scene(SceneError),
+    /// Something else about the input, in words.
+    Input(String),
+    /// The result can't be written.
+    Output(PathBuf, io::Error),
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(error) => error.fmt(f),
+            Self::Input(words) => f.write_str(words),
+            Self::Output(path, error) => write!(f, "{}: can't be written: {error}", path.display()),
+        }
+    }
+}
+
+pub(crate) fn main() -> ExitCode {
+    let line = Line::parse();
+    let done = match line.command {
+        None => render::showcase(line.quiet),
+        Some(Command::Render(options)) => render::run(&options, line.quiet),
+        Some(Command::Check { scene }) => check::run(&scene, line.quiet),
+        Some(Command::Trace(options)) => trace::run(&options),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        // The reader of our output has gone: nobody is left to tell.
+        Err(Failure::Output(_, error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(failure) => {
+            eprintln!("whitted: {failure}");
+            ExitCode::from(if matches!(failure, Failure::Output(..)) { 1 } else { 2 })
+        }
+    }
+}
+
+/// Prints to stdout; `println!` would panic where nobody reads.
+fn print(text: fmt::Arguments<'_>) -> Result<(), Failure> {
+    use io::Write;
+    io::stdout().lock().write_fmt(text).map_err(|error| Failure::Output("stdout".into(), error))
+}
+
+/// Says what the reader noticed, on stderr.
+fn warn(file: &std::path::Path, document: &whitted_host::document::Document) {
+    const MOST: usize = 5;
+    for warning in document.warnings.iter().take(MOST) {
+        eprintln!("{}:{}: warning: {}", file.display(), warning.line, warning.text);
+    }
+    if let Some(more) = document.warnings.len().checked_sub(MOST + 1) {
+        eprintln!("{}: {} more warnings", file.display(), more + 1);
+    }
+}

@@ -1,0 +1,148 @@
+//! `whitted render`, and `whitted` alone.
+
+use std::io::{IsTerminal, stdout};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use whitted::math::Fixed;
+use whitted_host::bake::{Baked, Construct};
+use whitted_host::document::{Document, Size};
+use whitted_host::error::Flaw;
+use whitted_host::picture::{Picture, save};
+use whitted_host::read;
+use whitted_host::render::{Rendered, Sampling, Settings, render};
+use whitted_host::stats::{Seconds, Stats};
+
+use super::{Arith, Failure, SamplingName, ShowName, With, print, progress, warn};
+
+/// How large a picture is if neither the command nor the scene says.
+pub(super) const SIZE: Size = Size { width: 320, height: 240 };
+
+const SHOWCASE: &str = include_str!("../../scenes/showcase.toml");
+
+#[derive(clap::Args)]
+pub(super) struct Options {
+    /// The scene: .toml or .nff
+    scene: PathBuf,
+    /// Where the picture goes; - is standard output [default: the scene's name with .png, here]
+    #[arg(short, long)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    with: With,
+    /// Where in a pixel rays go
+    #[arg(long, value_enum, default_value = "center")]
+    sampling: SamplingName,
+    /// Write ray counts and times to a file, as JSON
+    #[arg(long, value_name = "FILE")]
+    stats: Option<PathBuf>,
+    /// Show something else than the scene
+    #[arg(long, value_enum)]
+    show: Option<ShowName>,
+}
+
+pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
+    let start = Instant::now();
+    let document = read::read(&options.scene)?;
+    let load = start.elapsed().as_secs_f64();
+    if !quiet {
+        warn(&options.scene, &document);
+    }
+    let name = || Path::new(options.scene.file_stem().unwrap_or_default()).with_extension("png");
+    let out = options.out.clone().unwrap_or_else(name);
+    paint(&document, &options.scene, options, &out, load, quiet)
+}
+
+/// What `whitted` does alone: the scene that is built into it.
+pub(super) fn showcase(quiet: bool) -> Result<(), Failure> {
+    let file = PathBuf::from("showcase.toml");
+    let document = read::parse(read::Format::Toml, SHOWCASE.as_bytes()).map_err(|f| f.of(&file))?;
+    let options = Options {
+        scene: file.clone(),
+        out: None,
+        with: With { size: None, arith: Arith::F64, depth: None },
+        sampling: SamplingName::Center,
+        stats: None,
+        show: None,
+    };
+    paint(&document, &file, &options, Path::new("whitted.png"), 0.0, quiet)
+}
+
+fn paint(
+    document: &Document,
+    file: &Path,
+    options: &Options,
+    out: &Path,
+    load: f64,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let settings = Settings {
+        size: options.with.size.or(document.size).unwrap_or(SIZE),
+        depth: options.with.depth.unwrap_or(document.rules.depth),
+        sampling: Sampling::from(options.sampling),
+        show: options.show.map(Into::into),
+    };
+    let (rendered, arithmetic, build) = match options.with.arith {
+        Arith::Fixed => paint_in::<Fixed>(document, &settings, quiet),
+        Arith::F32 => paint_in::<f32>(document, &settings, quiet),
+        Arith::F64 => paint_in::<f64>(document, &settings, quiet),
+    }
+    .map_err(|flaw| flaw.of(file))?;
+
+    let picture = &rendered.picture;
+    let to_stdout = out == Path::new("-");
+    let written = if to_stdout { picture.write_png(stdout().lock()) } else { picture.save(out) };
+    written.map_err(|error| Failure::Output(out.into(), error))?;
+    let seconds = Seconds { load, build, render: rendered.time.as_secs_f64() };
+    if let Some(path) = &options.stats {
+        let stats = Stats::new(settings.size, arithmetic, &rendered.counts, seconds);
+        save(path, |to| serde_json::to_writer_pretty(to, &stats).map_err(Into::into))
+            .map_err(|error| Failure::Output(path.into(), error))?;
+    }
+    if quiet || to_stdout {
+        return Ok(());
+    }
+    if stdout().is_terminal() {
+        print(format_args!("{}", preview(picture)))?;
+    }
+    report(&rendered, arithmetic, seconds)?;
+    print(format_args!("{}\n", out.display()))
+}
+
+fn paint_in<A: Construct>(
+    document: &Document,
+    settings: &Settings,
+    quiet: bool,
+) -> Result<(Rendered, &'static str, f64), Flaw> {
+    let start = Instant::now();
+    let baked = Baked::<A>::new(document)?;
+    let build = start.elapsed().as_secs_f64();
+    let bar = progress::bar(settings.size.height, quiet);
+    let rendered = render(&baked, settings, |row| bar.set_position(row.into()))?;
+    bar.finish_and_clear();
+    Ok((rendered, A::NAME, build))
+}
+
+/// The picture, as large as the terminal lets it be with room for the text below.
+fn preview(picture: &Picture) -> String {
+    // A terminal that doesn't know its size says 0.
+    let known = terminal_size::terminal_size().filter(|(w, h)| w.0 > 0 && h.0 > 0);
+    let (columns, lines) = known.map_or((80, 24), |(w, h)| (w.0, h.0));
+    picture.to_terminal(columns.into(), lines.saturating_sub(5).max(10).into())
+}
+
+fn report(rendered: &Rendered, arithmetic: &str, seconds: Seconds) -> Result<(), Failure> {
+    let counts = &rendered.counts;
+    let size = rendered.picture.size();
+    print(format_args!(
+        "{size}, {arithmetic}: {:.2} s ({:.2} s to build the scene)\n",
+        seconds.render, seconds.build
+    ))?;
+    print(format_args!(
+        "{} rays: {} primary, {} reflection, {} transmission, {} shadow\n",
+        counts.rays(),
+        counts.primary,
+        counts.reflection,
+        counts.transmission,
+        counts.shadow
+    ))
+}

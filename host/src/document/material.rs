@@ -1,0 +1,84 @@
+//! Materials: every coefficient of the model, per channel.
+
+use super::{Point, Rgb};
+
+/// What a shadow ray finds where it meets the material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadowThrough {
+    /// Nothing passes.
+    Opaque,
+    /// The part k_tg passes, along the straight line.
+    Filtered,
+    /// Everything passes.
+    None,
+}
+
+/// A pattern of two materials in cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Checker {
+    /// The side of a cell along each axis; 0 where the pattern doesn't change along it.
+    pub cell: Point,
+    /// The corner of a cell.
+    pub offset: Point,
+    /// The material of the cells whose index sum is odd.
+    pub other: usize,
+}
+
+/// What a surface does with light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// What the file calls it; empty where it has no names.
+    pub name: String,
+    /// k_amb.
+    pub ambient: Rgb,
+    /// k_d, the albedo.
+    pub diffuse: Rgb,
+    /// k_s.
+    pub specular: Rgb,
+    /// n_s, Phong's exponent.
+    pub shininess: f64,
+    /// k_sg, the part mirrored.
+    pub reflection: Rgb,
+    /// k_tg, the part transmitted.
+    pub transmission: Rgb,
+    /// The index of refraction on the side that the normal points to.
+    pub index_front: f64,
+    /// The index on the other side: inside a closed shape.
+    pub index_behind: f64,
+    /// What a shadow ray finds.
+    pub shadow: ShadowThrough,
+    /// Cells of another material.
+    pub checker: Option<Checker>,
+    /// The line of the file that it starts on.
+    pub line: usize,
+}
+
+impl Material {
+    /// A grey, matt material, from which readers start.
+    pub fn matt(line: usize) -> Self {
+        Self {
+            name: String::new(),
+            ambient: [0.8; 3],
+            diffuse: [0.8; 3],
+            specular: [0.0; 3],
+            shininess: 32.0,
+            reflection: [0.0; 3],
+            transmission: [0.0; 3],
+            index_front: 1.0,
+            index_behind: 1.0,
+            shadow: ShadowThrough::Opaque,
+            checker: None,
+            line,
+        }
+    }
+
+    /// Whether light passes.
+    pub fn transmits(&self) -> bool {
+        self.transmission.iter().any(|&k| k > 0.0)
+    }
+
+    /// Whether it mirrors.
+    pub fn reflects(&self) -> bool {
+        self.reflection.iter().any(|&k| k > 0.0)
+    }
+}

@@ -1,0 +1,100 @@
+//! What a scene file says, in `f64` and in no format's terms.
+//!
+//! Readers make a [`Document`], [`bake`](crate::bake) turns it into the core's scene, writers
+//! ([`pov`](crate::pov)) into other programs' files. Everything in it is as the file has it:
+//! nothing is scaled, split into the core's primitives or rounded. Radiances and coefficients
+//! are linear.
+//!
+//! A new kind of light or shape is a variant here, then one arm in each reader that knows it, in
+//! `bake` and in each writer; the compiler lists the places.
+
+mod background;
+mod camera;
+mod light;
+mod material;
+mod rules;
+mod shape;
+mod vector;
+
+pub use background::Background;
+pub use camera::{Camera, Span};
+pub use light::{Falloff, Light, LightKind};
+pub use material::{Checker, Material, ShadowThrough};
+pub use rules::Rules;
+pub use shape::{Body, Shape};
+pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
+
+/// Beyond this no arithmetic takes a coordinate.
+pub const FARTHEST: f64 = 1e8;
+
+/// Width and height of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Size {
+    /// The largest width and height: the core counts pixels of a side in 15 bits.
+    pub const LARGEST: u32 = 16384;
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+/// Something a person should know about the file that doesn't keep it from being rendered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// The line it is about, from 1.
+    pub line: usize,
+    /// What it says.
+    pub text: String,
+}
+
+/// A scene as its file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Document {
+    /// Where it is seen from.
+    pub camera: Camera,
+    /// How large a picture the file asks for.
+    pub size: Option<Size>,
+    /// What a ray that hits nothing sees.
+    pub background: Background,
+    /// E_amb of the model: the irradiance that comes from everywhere, divided by π.
+    pub ambient: Rgb,
+    /// What the classic programs differ in.
+    pub rules: Rules,
+    /// The materials; shapes and checkers name them by index.
+    pub materials: Vec<Material>,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// The shapes, in the order of the file.
+    pub shapes: Vec<Shape>,
+    /// What the reader noticed.
+    pub warnings: Vec<Warning>,
+}
+
+impl Document {
+    /// The box around all shapes that end; `None` where there are none.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.shapes.iter().filter_map(|shape| shape.body.bounds()).reduce(Bounds::union)
+    }
+
+    /// How many shapes there are of each kind, in the order in which the kinds first appear.
+    pub fn census(&self) -> Vec<(&'static str, usize)> {
+        let mut counts: Vec<(&'static str, usize)> = Vec::new();
+        for shape in &self.shapes {
+            let name = shape.body.name();
+            match counts.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((name, 1)),
+            }
+        }
+        counts
+    }
+}

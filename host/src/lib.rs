@@ -1,0 +1,19 @@
+//! The host's side of `whitted`: scene files, rendering, pictures.
+//!
+//! A file is [`read`](read::read) into a [`Document`](document::Document), which says what the
+//! file says and nothing else.
+
+pub mod bake;
+pub mod document;
+pub mod error;
+pub mod nff;
+pub mod number;
+pub mod picture;
+pub mod polygon;
+pub mod pov;
+pub mod read;
+pub mod render;
+pub mod show;
+pub mod stats;
+pub mod toml;
+pub mod tree;

@@ -1,0 +1,117 @@
+//! Materials, and how shapes and checkers name them.
+
+use super::table::{Table, Value};
+use crate::document::{Checker, Material, ShadowThrough};
+use crate::error::{Flaw, Problem};
+
+/// The largest coefficient that is no part of the light: diffuse, ambient, highlight.
+const STRONGEST: f64 = 15.9;
+
+/// The materials read so far, and the checkers that name others.
+pub(super) struct Names<'d> {
+    materials: Vec<Material>,
+    /// The material, and its checker's table without the name of the other.
+    checkers: Vec<(usize, Checker, Value<'d>)>,
+}
+
+impl<'d> Names<'d> {
+    /// Reads all materials.
+    pub(super) fn read(tables: &[Table<'d>]) -> Result<Self, Flaw> {
+        let mut names = Self { materials: Vec::new(), checkers: Vec::new() };
+        for table in tables {
+            names.add(table)?;
+        }
+        Ok(names)
+    }
+
+    /// The materials, with their checkers.
+    pub(super) fn materials(&self) -> Result<Vec<Material>, Flaw> {
+        let mut materials = self.materials.clone();
+        for (index, checker, other) in &self.checkers {
+            let other = self.find(other)?;
+            if self.materials.get(other).is_some() && other == *index {
+                let why = "its two materials are the same";
+                return Err(Problem::degenerate("checker", why).at(self.materials[other].line));
+            }
+            materials[*index].checker = Some(Checker { other, ..*checker });
+        }
+        Ok(materials)
+    }
+
+    /// The material that a shape names. Where the file has one material, it need not.
+    pub(super) fn of(&self, shape: &Table<'_>) -> Result<usize, Flaw> {
+        match shape.get("material") {
+            Some(name) => self.find(&name),
+            None if self.materials.len() == 1 => Ok(0),
+            None => Err(shape.missing("key \"material\"")),
+        }
+    }
+
+    fn find(&self, value: &Value<'_>) -> Result<usize, Flaw> {
+        let name = value.text("material")?;
+        self.materials.iter().position(|m| m.name == name).ok_or_else(|| {
+            let known: Vec<&str> = self.materials.iter().map(|m| m.name.as_str()).collect();
+            Problem::unknown("material", name, &known).at(value.line)
+        })
+    }
+
+    fn add(&mut self, table: &Table<'d>) -> Result<(), Flaw> {
+        let name = table.need("name")?;
+        let text = name.text("name")?;
+        if let Some(first) = self.materials.iter().find(|m| m.name == text) {
+            let what = format!("material \"{}\"", crate::error::shown(text));
+            return Err(Problem::Twice { what, first: first.line }.at(name.line));
+        }
+        let like = Material::matt(table.line);
+        let diffuse = table.color("diffuse", STRONGEST, like.diffuse)?;
+        let index = table.number("index", 0.25..4.0, like.index_behind)?;
+        let shadows = [
+            ("opaque", ShadowThrough::Opaque),
+            ("filtered", ShadowThrough::Filtered),
+            ("none", ShadowThrough::None),
+        ];
+        let material = Material {
+            name: text.to_owned(),
+            ambient: table.color("ambient", STRONGEST, diffuse)?,
+            diffuse,
+            specular: table.color("specular", STRONGEST, like.specular)?,
+            shininess: table.number("shininess", 0.0..1e6, like.shininess)?,
+            reflection: table.color("reflection", 1.0, like.reflection)?,
+            transmission: table.color("transmission", 1.0, like.transmission)?,
+            index_front: table.number("index_front", 0.25..4.0, like.index_front)?,
+            index_behind: table.number("index_behind", 0.25..4.0, index)?,
+            shadow: table.get("shadow").map_or(Ok(like.shadow), |v| v.word("shadow", &shadows))?,
+            ..like
+        };
+        let ratio = material.index_behind / material.index_front;
+        if !(0.25..=4.0).contains(&ratio) {
+            let right = "0.25 to 4 (of index_behind to index_front)";
+            return Err(Problem::range("ratio of the indices", ratio, right).at(table.line));
+        }
+        if let Some(value) = table.get("checker") {
+            let checker = value.table("checker")?;
+            self.checkers.push((self.materials.len(), pattern(&checker)?, checker.need("with")?));
+            checker.done()?;
+        }
+        table.done()?;
+        self.materials.push(material);
+        Ok(())
+    }
+}
+
+/// The cells; which material the others have is known once all are read.
+fn pattern(table: &Table<'_>) -> Result<Checker, Flaw> {
+    let cell = match table.get("size") {
+        None => [1.0; 3],
+        Some(value) => match value.number("size") {
+            Ok(_) => [value.positive("size")?; 3],
+            Err(_) => value.point("size")?,
+        },
+    };
+    if cell.iter().any(|&c| c < 0.0) || cell == [0.0; 3] {
+        let why = "its size must be positive along one axis, and 0 along those that don't count";
+        return Err(Problem::degenerate("checker", why).at(table.line));
+    }
+    let offset = table.get("offset").map_or(Ok([0.0; 3]), |v| v.point("offset"))?;
+    Ok(Checker { cell, offset, other: 0 })
+}

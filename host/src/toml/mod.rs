@@ -1,0 +1,149 @@
+//! Our own scene format, in TOML: all that the model has (described in `docs/scene-format.md`).
+
+mod body;
+mod light;
+mod material;
+mod table;
+
+use toml::de::DeTable;
+
+use crate::document::{Background, Camera, Document, Falloff, Point, Rules, Size, Span};
+use crate::error::{Flaw, Problem};
+use material::Names;
+use table::{Lines, Table, Value};
+
+/// Reads a text in our own format.
+///
+/// # Errors
+/// The first thing that is wrong with it, with its line.
+pub fn parse(text: &str) -> Result<Document, Flaw> {
+    let lines = Lines::of(text);
+    let root = DeTable::parse(text).map_err(|error| {
+        let line = error.span().map(|span| lines.at(span.start));
+        Flaw { line, problem: Problem::Syntax(error.message().to_owned()) }
+    })?;
+    let scene = Table::new(root.get_ref(), &lines, "", 1);
+
+    let camera = scene.get("camera").ok_or_else(|| {
+        Problem::Missing { what: "the camera ([camera] eye, look_at)".into() }.anywhere()
+    })?;
+    let camera = camera_of(&camera.table("camera")?)?;
+    let (size, rules) = match scene.get("render") {
+        Some(render) => render_of(&render.table("render")?)?,
+        None => (None, Rules::SLIDES),
+    };
+    let background = match scene.get("background") {
+        Some(value) => background_of(&value)?,
+        None => Background::Color([0.0; 3]),
+    };
+    let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
+
+    let names = Names::read(&tables(&scene, "material")?)?;
+    let materials = names.materials()?;
+    let lights = tables(&scene, "light")?;
+    let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
+    let mut shapes = Vec::new();
+    for (kind, read) in body::KINDS {
+        for table in tables(&scene, kind)? {
+            let material = names.of(&table)?;
+            let bodies = read(&table)?;
+            table.done()?;
+            for body in bodies {
+                if let Some(why) = body.flaw() {
+                    return Err(Problem::degenerate(table.name, why).at(table.line));
+                }
+                shapes.push(crate::document::Shape { body, material, line: table.line });
+            }
+        }
+    }
+    scene.done()?;
+    if shapes.is_empty() {
+        let kinds: Vec<String> =
+            body::KINDS.iter().map(|(kind, _)| format!("[[{kind}]]")).collect();
+        let what = format!("a shape ({})", kinds.join(", "));
+        return Err(Problem::Missing { what }.anywhere());
+    }
+    // The kinds were read one after the other; numbers go by the file's order.
+    shapes.sort_by_key(|shape| shape.line);
+    let warnings = Vec::new();
+    Ok(Document { camera, size, background, ambient, rules, materials, lights, shapes, warnings })
+}
+
+/// The tables of an array of tables, none if it isn't there.
+fn tables<'d>(scene: &Table<'d>, key: &'static str) -> Result<Vec<Table<'d>>, Flaw> {
+    let Some(value) = scene.get(key) else { return Ok(Vec::new()) };
+    let wanted = format!("a list of tables, each under [[{key}]],");
+    value.list(key, &wanted)?.iter().map(|item| item.table(key)).collect()
+}
+
+fn camera_of(table: &Table<'_>) -> Result<Camera, Flaw> {
+    let spans = [("edges", Span::Edges), ("pixel-centers", Span::Centers)];
+    let camera = Camera {
+        eye: table.need("eye")?.point("eye")?,
+        look_at: table.need("look_at")?.point("look_at")?,
+        up: table.get("up").map_or(Ok([0.0, 1.0, 0.0]), |v| v.direction("up"))?,
+        angle: table.number("angle", 0.01..170.0, 45.0)?,
+        span: table
+            .get("angle_spans")
+            .map_or(Ok(Span::Edges), |v| v.word("angle_spans", &spans))?,
+    };
+    table.done()?;
+    match camera.flaw() {
+        Some(why) => Err(Problem::degenerate("camera", why).at(table.line)),
+        None => Ok(camera),
+    }
+}
+
+const FALLOFFS: [(&str, Falloff); 2] =
+    [("inverse-square", Falloff::InverseSquare), ("none", Falloff::None)];
+
+fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
+    let size = table.get("size").map(size_of).transpose()?;
+    let like = Rules::SLIDES;
+    let rules = Rules {
+        specular_cosine: table.flag("specular_cosine", like.specular_cosine)?,
+        highlight_cosine: table.flag("highlight_cosine", like.highlight_cosine)?,
+        falloff: table.get("falloff").map_or(Ok(like.falloff), |v| v.word("falloff", &FALLOFFS))?,
+        transmitters_reflect: table.flag("transmitters_reflect", like.transmitters_reflect)?,
+        lossy_total_reflection: table
+            .flag("lossy_total_reflection", like.lossy_total_reflection)?,
+        cutoff: table.number("cutoff", 0.0..1.0, like.cutoff)?,
+        depth: table.get("depth").map_or(Ok(like.depth), |v| {
+            v.count("depth", 1, Rules::DEEPEST.into()).map(|depth| depth as u8)
+        })?,
+    };
+    table.done()?;
+    Ok((size, rules))
+}
+
+fn size_of(value: Value<'_>) -> Result<Size, Flaw> {
+    let wanted = "[width, height]";
+    let list = value.list("size", wanted)?;
+    let [width, height] = list.as_slice() else {
+        let found = format!("a list of {} for \"size\"", list.len());
+        return Err(Problem::Found { found, wanted: wanted.into() }.at(value.line));
+    };
+    Ok(Size {
+        width: width.count("width", 1, Size::LARGEST)?,
+        height: height.count("height", 1, Size::LARGEST)?,
+    })
+}
+
+fn background_of(value: &Value<'_>) -> Result<Background, Flaw> {
+    // `background = 0.2` is the short form of `[background] color = 0.2`.
+    let Ok(table) = value.table("background") else {
+        return Ok(Background::Color(value.color("background", 1000.0)?));
+    };
+    let color = table.get("color").map(|v| v.color("color", 1000.0)).transpose()?;
+    let bottom = table.get("bottom").map(|v| v.color("bottom", 1000.0)).transpose()?;
+    let top = table.get("top").map(|v| v.color("top", 1000.0)).transpose()?;
+    let up: Option<Point> = table.get("up").map(|v| v.direction("up")).transpose()?;
+    table.done()?;
+    match (color, bottom, top) {
+        (Some(color), None, None) => Ok(Background::Color(color)),
+        (None, Some(bottom), Some(top)) => {
+            Ok(Background::Gradient { bottom, top, up: up.unwrap_or([0.0, 1.0, 0.0]) })
+        }
+        _ => Err(table.missing("either \"color\", or both \"bottom\" and \"top\",")),
+    }
+}

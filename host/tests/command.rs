@@ -1,0 +1,142 @@
+//! The command as a person uses it.
+
+mod common;
+
+use common::{errors, files, said, whitted};
+
+const SCENES: [&str; 5] = ["showcase", "shapes", "limit", "raystones", "ftb"];
+
+fn scene(name: &str) -> String {
+    format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Width and height of a PNG.
+fn png_size(path: &std::path::Path) -> (u32, u32) {
+    let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
+    let reader = png::Decoder::new(file).read_info().unwrap();
+    (reader.info().width, reader.info().height)
+}
+
+#[test]
+fn alone_it_renders_the_showcase() {
+    let place = tempfile::tempdir().unwrap();
+    let output = whitted(place.path(), &[]);
+    assert_eq!(errors(&output), "");
+    assert!(output.status.success());
+    assert_eq!(files(place.path()), ["whitted.png"]);
+    assert_eq!(png_size(&place.path().join("whitted.png")), (480, 320));
+    let said = said(&output);
+    assert!(said.contains("153600 primary"), "{said}");
+    assert!(said.ends_with("whitted.png\n"), "{said}");
+    assert!(!said.contains('\x1b'), "no control codes to a pipe");
+}
+
+#[test]
+fn every_scene_of_ours_renders_in_every_arithmetic() {
+    let place = tempfile::tempdir().unwrap();
+    for name in SCENES {
+        for arithmetic in ["fixed", "f32", "f64"] {
+            let scene = scene(name);
+            let arguments = ["-q", "render", &scene, "--arith", arithmetic, "--size", "32x24"];
+            let output = whitted(place.path(), &arguments);
+            assert_eq!(errors(&output), "", "{name} {arithmetic}");
+            assert_eq!(said(&output), "");
+        }
+        assert_eq!(png_size(&place.path().join(name).with_extension("png")), (32, 24));
+    }
+}
+
+#[test]
+fn stats_say_what_it_took() {
+    let place = tempfile::tempdir().unwrap();
+    let scene = scene("shapes");
+    let arguments =
+        ["render", &scene, "--size", "20x10", "--sampling", "corners", "--stats", "s.json"];
+    assert!(whitted(place.path(), &arguments).status.success());
+    let text = std::fs::read_to_string(place.path().join("s.json")).unwrap();
+    let stats: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(stats["width"], 20);
+    assert_eq!(stats["height"], 10);
+    assert_eq!(stats["arithmetic"], "f64");
+    assert_eq!(stats["rays"]["primary"], 21 * 11);
+    for (group, names) in [
+        ("rays", &["reflection", "transmission", "shadow", "ambient"][..]),
+        ("hits", &["primary", "shadow"]),
+        ("octree", &["nodes_visited", "shapes_tested"]),
+        ("seconds", &["load", "build", "render"]),
+    ] {
+        for name in names {
+            assert!(stats[group][name].is_number(), "{group}.{name}");
+        }
+    }
+}
+
+#[test]
+fn it_shows_other_things() {
+    let place = tempfile::tempdir().unwrap();
+    for show in ["depth", "normal", "rays", "octree"] {
+        let scene = scene("shapes");
+        let arguments = ["-q", "render", &scene, "--size", "24x16", "--show", show, "-o", "x.png"];
+        assert_eq!(errors(&whitted(place.path(), &arguments)), "", "{show}");
+    }
+}
+
+#[test]
+fn check_says_what_is_in_it() {
+    let place = tempfile::tempdir().unwrap();
+    let said = said(&whitted(place.path(), &["check", &scene("shapes")]));
+    for part in ["1 sphere", "1 box", "1 smooth triangle", "2 cones", "point, spot, directional"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert!(said.contains("fixed      yes, scaled by 2^"), "{said}");
+}
+
+#[test]
+fn the_terms_of_a_pixel_sum_to_it() {
+    let place = tempfile::tempdir().unwrap();
+    let said = said(&whitted(place.path(), &["trace", &scene("showcase"), "200", "180"]));
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split_whitespace().skip(1).take(3).map(|n| n.parse().unwrap()).collect()
+    };
+    let mut sum = [0.0; 3];
+    for line in said.lines().filter(|l| l.trim_start().starts_with("+ ")) {
+        sum.iter_mut().zip(numbers(line)).for_each(|(s, n)| *s += n);
+    }
+    let total = numbers(said.lines().last().unwrap());
+    let count = said.lines().count() as f64;
+    for (s, t) in sum.iter().zip(total) {
+        // Each line is rounded to four digits.
+        assert!((s - t).abs() < 0.00005 * count, "{s} {t}\n{said}");
+    }
+    let output = whitted(place.path(), &["trace", &scene("showcase"), "480", "0"]);
+    assert!(errors(&output).contains("pixel 480 0 is outside the picture: its size is 480x320"));
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn wrong_options() {
+    let place = tempfile::tempdir().unwrap();
+    for (arguments, says) in [
+        (&["render"][..], "<SCENE>"),
+        (&["render", "x.toml", "--size", "0x4"], "write WxH, each 1 to 16384"),
+        (&["render", "x.toml", "--size", "99999999x4"], "write WxH"),
+        (&["render", "x.toml", "--size", "axb"], "write WxH"),
+        (&["render", "x.toml", "--depth", "0"], "0 is not in 1..=64"),
+        (&["render", "x.toml", "--arith", "f16"], "possible values: fixed, f32, f64"),
+        (&["paint"], "unrecognized subcommand"),
+    ] {
+        let output = whitted(place.path(), arguments);
+        assert!(errors(&output).contains(says), "{says}: {}", errors(&output));
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+#[test]
+fn an_output_that_cannot_be_written() {
+    let place = tempfile::tempdir().unwrap();
+    let scene = scene("limit");
+    let arguments = ["render", &scene, "--size", "8x8", "-o", "nowhere/x.png"];
+    let output = whitted(place.path(), &arguments);
+    assert!(errors(&output).contains("nowhere/x.png: can't be written: "), "{}", errors(&output));
+    assert_eq!(output.status.code(), Some(1));
+}

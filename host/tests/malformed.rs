@@ -1,0 +1,232 @@
+//! Scenes that are wrong: each a clear error with file and line, exit code 2, no output.
+
+mod common;
+
+use std::fmt::Write as _;
+
+use common::{errors, files, whitted};
+
+/// A whole scene in TOML, to which a case adds something wrong; six lines.
+const GOOD: &str = "[camera]\neye = [0, 1, -5]\nlook_at = [0, 0, 0]\n\
+                    [[material]]\nname = \"red\"\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+
+/// The view of an NFF file, in seven lines, and a material in the eighth.
+const VIEW: &str = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 8\n\
+                    f 1 0 0 1 0 1 0 1\n";
+
+/// Lines that are wrong after `VIEW`, and what the error says.
+const NFF: &[(&str, &str)] = &[
+    ("s 0 0 0", ":9: the file ends where a number (sphere radius) should follow"),
+    ("s 0 0 0 x", ":9: found \"x\"; a number (sphere radius) should be here"),
+    ("s 0 0 0 NaN", ":9: found \"NaN\"; a finite number (sphere radius)"),
+    ("s 0 0 inf 1", ":9: found \"inf\"; a finite number (sphere z)"),
+    ("s 0 0 1e400 1", ":9: found \"1e400\"; a finite number"),
+    ("s 0 0 0 0", ":9: sphere: its radius is 0"),
+    ("s 1e30 0 0 1", ":9: sphere x 1000000000000000000000000000000 is out of range"),
+    ("s 0 0 0 1\nq 1", ":10: unknown word \"q\"; known: v, from"),
+    ("s 0 0 0 1 5", ":9: unknown word \"5\""),
+    ("p 4\n0 0 0\n1 0 0\n1 1 0", ":12: the file ends where a number (polygon corner 4 x)"),
+    ("p 3\n0 0 0\n1 0 0\ns 0 0 0 1", ":12: found \"s\"; a number (polygon corner 3 x)"),
+    ("p 2\n0 0 0\n1 0 0", ":9: polygon corner count 2 is out of range: it must be 3 to"),
+    ("p -3", ":9: polygon corner count -3 is out of range"),
+    ("p 3.5", ":9: polygon corner count 3.5 is out of range: it must be a whole number"),
+    ("p 999999999", ":9: polygon corner count 999999999 is out of range"),
+    ("p 4\n0 0 0\n3 0 0\n0 1 0\n2 1 0", ":9: polygon: its edges cross each other"),
+    ("p 3\n0 0 0\n1 1 1\n2 2 2", ": a shape (s, c, p or pp) is missing"),
+    ("pp 3\n0 0 0 0 0 1\n1 0 0 0 0", ":11: the file ends where a number (patch normal 2 z)"),
+    ("c 0 0 0 1 0 0 0 1", ":9: cylinder: its two ends are one point"),
+    ("c 0 0 0 0 0 0 1 0", ":9: cylinder: its radius is 0"),
+    ("c 0 0 0 1 0 0 1 -2", ":9: cone: its radii have different signs"),
+    ("l 1 2", ":9: the file ends where a number (light z)"),
+    ("l 1 2 3 1 1\ns 0 0 0 1", ":10: found \"s\"; a number (light blue)"),
+    ("f 1 1 1 -1 0 0 0 1", ":9: Kd -1 is out of range: it must be 0 to 16"),
+    ("f 1 1 1 1 0 0 1 0", ":9: ior 0 is out of range: it must be 0.25 to 4 where T is not 0"),
+    ("f 1 1 1 1 0 0 2 1", ":9: T 2 is out of range: it must be 0 to 1"),
+    ("angle 45", ":9: a second angle; the first is at line 5"),
+    ("v", ":9: a second view (v); the first is at line 1"),
+    ("", ": a shape (s, c, p or pp) is missing"),
+];
+
+/// Whole NFF files.
+const NFF_FILES: &[(&[u8], &str)] = &[
+    (b"", ":1: there is no scene in this file; it is empty"),
+    (b" \n\t\n", ":1: there is no scene in this file; it is empty"),
+    (b"# only a comment\n", ": the view (v, then from, at, up, angle, resolution) is missing"),
+    (b"b 1 1 1\ns 0 0 0 1\n", ":2: a material (f r g b Kd Ks Shine T ior) before the first"),
+    (b"v\nfrom 0 0 1\nup 0 1 0\nangle 45\n", ":1: the view's target (at x y z) is missing"),
+    (b"v\nfrom 0 0 1\nat 0 0 1\nup 0 1 0\nangle 45\n", ":1: view: the camera looks at the point"),
+    (b"v\nfrom 0 0 1\nat 0 0 0\nup 0 0 1\nangle 45\n", ":1: view: the camera's up direction lies"),
+    (b"v\nfrom 0 0 1\nat 0 0 0\nup 0 0 0\nangle 45\n", ":1: view: the camera's up direction is"),
+    (b"v\nangle 180\n", ":2: angle 180 is out of range: it must be 0.01 to 179"),
+    (b"v\nresolution 0 5\n", ":2: resolution x 0 is out of range: it must be 1 to 16384"),
+    (b"v\nresolution 99999999 5\n", ":2: resolution x 99999999 is out of range"),
+    (b"v\nfrom 0 0\xff\xfe 1\n", ":2: is not text"),
+    (b"\x7fELF\x02\x01\x01\0\0\0\0\0", ":1: is not text"),
+    (b"v\nfrom 0 \0 1\n", ":2: is not text"),
+    (b"\x89PNG\r\n\x1a\n", ":1: is not text"),
+    (b"once upon a time", ":1: unknown word \"once\"; known: v, from"),
+];
+
+/// Lines that are wrong after `GOOD`, and what the error says.
+const TOML: &[(&str, &str)] = &[
+    ("radius = 2", ":9: duplicate key"),
+    ("colour = 1", ":9: unknown key \"colour\"; known: material, center, radius"),
+    ("[[sphere]]\ncenter = [0, 0, 0]", ":9: key \"radius\" of this sphere is missing"),
+    ("[[sphere]]\ncenter = [0, 0]\nradius = 1", ":10: found a list of 2 for \"center\"; [x, y, z]"),
+    ("[[sphere]]\ncenter = [0, 0, 0]\nradius = -1", ":11: radius -1 is out of range: it must be"),
+    ("[[sphere]]\ncenter = [0, nan, 0]\nradius = 1", ":10: found nan for \"center\"; a finite"),
+    ("[[sphere]]\ncenter = [0, inf, 0]\nradius = 1", ":10: found inf for \"center\"; a finite"),
+    ("[[sphere]]\ncenter = [0, 1e9, 0]\nradius = 1", ":10: center 1000000000 is out of range"),
+    ("[[sphere]]\ncenter = 5\nradius = 1", ":10: found 5 for \"center\"; [x, y, z] should be"),
+    ("[[sphere]]\nmaterial = \"blue\"", ":10: unknown material \"blue\"; known: red"),
+    ("[[sphere]]\nmaterial = 3", ":10: found 3 for \"material\"; a text in quotes"),
+    ("[sphere]\nradius = 1", ":9: duplicate key"),
+    ("[[torus]]\nradius = 1", ":9: unknown key \"torus\"; known: camera, render"),
+    ("[[material]]\nname = \"red\"", ":10: a second material \"red\"; the first is at line 4"),
+    ("[[material]]\ndiffuse = 1", ":9: key \"name\" of this material is missing"),
+    ("[[material]]\nname = \"a\"\ndiffuse = -0.5", ":11: diffuse -0.5 is out of range"),
+    ("[[material]]\nname = \"a\"\nreflection = 1.5", ":11: reflection 1.5 is out of range: it"),
+    ("[[material]]\nname = \"a\"\ndiffuse = \"#12345g\"", ":11: found \"#12345g\" for \"diffuse\""),
+    ("[[material]]\nname = \"a\"\nindex = 0", ":11: index 0 is out of range: it must be 0.25"),
+    ("[[material]]\nname = \"a\"\nshadow = \"soft\"", ":11: unknown word \"soft\"; known: opaque"),
+    ("[[material]]\nname = \"a\"\nchecker = { size = 1 }", ":11: key \"with\" of this checker"),
+    ("[[material]]\nname = \"a\"\nchecker = { with = \"b\" }", ":11: unknown material \"b\""),
+    ("[[material]]\nname = \"a\"\nchecker = { with = \"a\" }", ":9: checker: its two materials"),
+    ("[[material]]\nname = \"a\"\nchecker = { with = \"red\", size = 0 }", ":11: size 0 is out"),
+    ("[[triangle]]\ncorners = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]", ":9: triangle: its corners lie"),
+    ("[[triangle]]\ncorners = [[0, 0, 0], [1, 1, 1]]", ":10: found a list of 2 for \"corners\""),
+    (
+        "[[polygon]]\ncorners = [[0, 0, 0], [3, 0, 0], [0, 1, 0], [2, 1, 0]]",
+        ":9: polygon: its edges",
+    ),
+    ("[[polygon]]\ncorners = []", ":10: found a list of 0 for \"corners\"; three points or more"),
+    ("[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", ":11: normal: 0 0 0 is no direction"),
+    ("[[box]]\nmin = [0, 0, 0]\nmax = [1, 0, 1]", ":9: box: its min must lie below its max"),
+    ("[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 0", ":12: radius 0 is out of"),
+    ("[[cone]]\nbase = [0, 0, 0]\nbase_radius = 1\napex = [0, 0, 0]", ":9: cone: its two ends"),
+    (
+        "[[light]]\ntype = \"area\"\nposition = [0, 0, 0]",
+        ":10: unknown word \"area\"; known: point",
+    ),
+    ("[[light]]\nintensity = 3", ":9: key \"position\" of this light is missing"),
+    ("[[light]]\nposition = [0, 0, 0]\ndirection = [0, 0, 1]", ":11: unknown key \"direction\""),
+    ("[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 1, 0]", ":9: spot light: it"),
+    (
+        "[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 0, 0]\ninner = 40\nouter = 30",
+        ":13: inner 40 is out of range: it must be smaller than \"outer\", 30",
+    ),
+    ("[render]\nsize = [0, 10]", ":10: width 0 is out of range: it must be 1 to 16384"),
+    ("[render]\nsize = [1000000, 1000000]", ":10: width 1000000 is out of range"),
+    ("[render]\nsize = 100", ":10: found 100 for \"size\"; [width, height] should be here"),
+    ("[render]\ndepth = 0", ":10: depth 0 is out of range: it must be 1 to 64"),
+    ("[render]\ndepth = 2.5", ":10: depth 2.5 is out of range: it must be a whole number"),
+    ("[render]\nspecular_cosine = 1", ":10: found 1 for \"specular_cosine\"; true or false"),
+    ("[background]\nbottom = 1", ":9: either \"color\", or both \"bottom\" and \"top\""),
+    ("[camera]\neye = [0, 0, 0]", ":9: duplicate key"),
+    ("x = [", ":9: unclosed array"),
+    ("x = \"abc", ":9: invalid basic string"),
+];
+
+/// Whole TOML files.
+const TOML_FILES: &[(&[u8], &str)] = &[
+    (b"", ":1: there is no scene in this file; it is empty"),
+    (b"[render]\n", ": the camera ([camera] eye, look_at) is missing"),
+    (b"camera = 3\n", ":1: found 3 for \"camera\"; a table should be here"),
+    (b"[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n", ": a shape ([[sphere]], [[plane]]"),
+    (b"[camera]\nlook_at = [0, 0, 0]\n", ":1: key \"eye\" of this camera is missing"),
+    (b"[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 0]\n", ":1: camera: the camera looks at the"),
+    (b"[camera]\neye = [0, 1, 0]\nlook_at = [0, 0, 0]\n", ":1: camera: the camera's up direction"),
+    (b"[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nangle = 180\n", ":4: angle 180 is out of"),
+    (b"[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nangle_spans = \"all\"\n", ":4: unknown word"),
+    (b"[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n",
+     ":4: key \"material\" of this sphere is missing"),
+    (b"[camera\n", ":1: "),
+    (b"\x00\x01\x02\xff", ":1: is not text"),
+    (b"[camera]\neye = \"\xc3\x28\"\n", ":2: is not text"),
+];
+
+/// Every case as a file: its name, its bytes, what the error says.
+fn cases() -> Vec<(&'static str, Vec<u8>, &'static str)> {
+    let after = |start: &str, rest: &str| format!("{start}{rest}\n").into_bytes();
+    let mut all = Vec::new();
+    all.extend(NFF.iter().map(|(text, says)| ("bad.nff", after(VIEW, text), *says)));
+    all.extend(NFF_FILES.iter().map(|(bytes, says)| ("bad.nff", bytes.to_vec(), *says)));
+    all.extend(TOML.iter().map(|(text, says)| ("bad.toml", after(GOOD, text), *says)));
+    all.extend(TOML_FILES.iter().map(|(bytes, says)| ("bad.toml", bytes.to_vec(), *says)));
+    all
+}
+
+#[test]
+fn each_is_a_clear_error_and_leaves_no_file() {
+    let cases = cases();
+    assert!(cases.len() >= 40);
+    let mut wrong = String::new();
+    for (name, bytes, says) in cases {
+        let place = tempfile::tempdir().unwrap();
+        std::fs::write(place.path().join(name), &bytes).unwrap();
+        let output = whitted(place.path(), &["render", name, "--size", "8x8", "-o", "out.png"]);
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let error = errors(&output);
+        let wanted = format!("{name}{says}");
+        if !error.contains(&wanted) {
+            let _ = write!(wrong, "{text}\nsays: {error}not: {wanted}\n\n");
+        }
+        assert_eq!(
+            error.trim_end().lines().last().map(|l| l.contains(name)),
+            Some(true),
+            "{error}"
+        );
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        assert!(output.stdout.is_empty());
+        assert_eq!(files(place.path()), [name]);
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn the_good_parts_are_good() {
+    let place = tempfile::tempdir().unwrap();
+    std::fs::write(place.path().join("good.toml"), GOOD).unwrap();
+    std::fs::write(place.path().join("good.nff"), format!("{VIEW}s 0 0 0 1\n")).unwrap();
+    for scene in ["good.toml", "good.nff"] {
+        let output = whitted(place.path(), &["check", scene]);
+        assert_eq!(errors(&output), "");
+        assert_eq!(output.status.code(), Some(0));
+    }
+}
+
+#[test]
+fn what_is_no_scene_file() {
+    let place = tempfile::tempdir().unwrap();
+    std::fs::create_dir(place.path().join("folder.toml")).unwrap();
+    std::fs::write(place.path().join("scene.stl"), "solid").unwrap();
+    std::fs::write(place.path().join("scene"), "solid").unwrap();
+    for (scene, says) in [
+        ("nowhere.toml", "nowhere.toml: can't be read: No such file"),
+        ("folder.toml", "folder.toml: is a directory; a scene is a file"),
+        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff"),
+        ("scene", "scene: unknown format \"\"; known: .toml, .nff"),
+    ] {
+        let output = whitted(place.path(), &["render", scene]);
+        assert!(errors(&output).contains(says), "{}", errors(&output));
+        assert_eq!(output.status.code(), Some(2));
+    }
+    assert_eq!(files(place.path()), ["folder.toml", "scene", "scene.stl"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_may_not_be_read() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("secret.toml");
+    std::fs::write(&file, GOOD).unwrap();
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o000)).unwrap();
+    if std::fs::read(&file).is_ok() {
+        eprintln!("skipped: this user may read everything");
+        return;
+    }
+    let output = whitted(place.path(), &["render", "secret.toml"]);
+    assert!(errors(&output).contains("secret.toml: can't be read: Permission denied"));
+    assert_eq!(output.status.code(), Some(2));
+}
