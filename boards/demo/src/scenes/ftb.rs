@@ -36,7 +36,7 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
     })],
     ambient: Ambient::<A>::new([1.0; 3]),
     background: Background::<A>::gradient([0.0, 0.0, 1.0], [1.5, 0.4, 1.3], [0.1, 0.0, 0.3]),
-    rules: Rules::WHITTED,
+    rules: Rules::NFF,
     ..Parts::EMPTY
 });
 

@@ -37,7 +37,7 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
         light([30.0, 20.0, 30.0], 1.7),
     ],
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.0; 3], [0.2, 0.7, 1.3]),
-    rules: Rules::WHITTED,
+    rules: Rules::NFF,
     ..Parts::EMPTY
 });
 
