@@ -15,8 +15,8 @@ impl<A: Arithmetic> Tracer<'_, A> {
         tally: &mut T,
     ) -> Option<(Hit<A>, Surface<A>)> {
         let hit = self.nearest(ray, work, tally)?;
-        let p = A::along(&ray.origin, hit.distance, &ray.direction);
+        let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        with_shape!(&self.scene.parts, hit.shape, shape => Some((hit, shape.surface(ray, &meeting, &p))), None)
+        with_shape!(&self.scene.parts, hit.shape, shape => Some((hit, shape.surface(ray, &meeting, &mut p))), None)
     }
 }
