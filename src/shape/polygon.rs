@@ -246,7 +246,8 @@ for_each_arithmetic! {
             let limit = TOLERANCE * (half[0] + half[1]) + SLACK_OF_ROUNDING;
             let mut all = [[0.0; 2]; 255];
             let mut i = 0;
-            while i < corners.len() {
+            // There are no more corners than that; said once more so that no panic is left.
+            while i < corners.len() && i < all.len() {
                 all[i] = match self.flat(corners, i) {
                     Ok(p) => p,
                     Err(error) => return Err(error),
@@ -262,7 +263,7 @@ for_each_arithmetic! {
                 let length = sqrt_f64(inward[0] * inward[0] + inward[1] * inward[1]);
                 let least = -limit * length;
                 let mut j = 0;
-                while j < corners.len() {
+                while j < corners.len() && j < all.len() {
                     let (x, y) = (all[j][0] - start[0], all[j][1] - start[1]);
                     if inward[0] * x + inward[1] * y < least {
                         return Err(ShapeError::Polygon);

@@ -1,1 +1,82 @@
-fn main() {}
+//! What this repository needs done to it: `cargo xtask setup`, `test` and `bench`.
+
+mod bench;
+mod elf;
+mod firmware;
+mod lint;
+mod machine;
+mod nopanic;
+mod oled;
+mod report;
+mod setup;
+mod shell;
+
+use std::process::ExitCode;
+
+use report::Report;
+
+const USAGE: &str = "\
+cargo xtask setup                          install what the rest needs
+cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
+                                           lint, host, nopanic, boards
+cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
+                                           --check compares with it instead
+cargo xtask nopanic                        the no-panic proof alone, naming culprits";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let done = match args.as_slice() {
+        ["setup"] => setup::run(),
+        ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
+        ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
+        ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
+        _ => Err(USAGE.into()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Checks that belong together.
+type Group = fn(&mut Report);
+
+/// The groups, in the order they run.
+const GROUPS: [(&str, Group); 4] = [
+    ("lint", lint::check),
+    ("host", lint::host_tests),
+    ("nopanic", nopanic::check),
+    ("boards", firmware::check),
+];
+
+/// The groups that `--only` names, or all.
+fn groups(options: &[&str]) -> Result<Vec<Group>, String> {
+    if options.is_empty() {
+        return Ok(GROUPS.iter().map(|group| group.1).collect());
+    }
+    let (pairs, rest) = options.as_chunks::<2>();
+    if !rest.is_empty() || pairs.iter().any(|[option, _]| *option != "--only") {
+        return Err(USAGE.into());
+    }
+    let find = |name: &str| GROUPS.iter().find(|group| group.0 == name).map(|group| group.1);
+    pairs
+        .iter()
+        .map(|[_, name]| find(name).ok_or_else(|| format!("no group `{name}`\n{USAGE}")))
+        .collect()
+}
+
+fn test(groups: &[Group]) -> Result<(), String> {
+    setup::run()?;
+    summary(|report| groups.iter().for_each(|group| group(report)))
+}
+
+/// Runs checks and ends with the line of their numbers.
+fn summary(checks: impl FnOnce(&mut Report)) -> Result<(), String> {
+    let mut report = Report::default();
+    checks(&mut report);
+    report.finish()
+}

@@ -1,0 +1,17 @@
+//! Shared by every board: puts the board's own memory map, and nobody else's, where the linker
+//! finds it.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+fn main() {
+    let board = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    let map = board.join("memory.x");
+    fs::copy(&map, out.join("memory.x")).expect("a board has a memory.x");
+    println!("cargo::rerun-if-changed={}", map.display());
+    println!("cargo::rustc-link-search={}", out.display());
+    // Sections needn't start on a page: without this, gaps of up to 64 KiB appear in flash.
+    println!("cargo::rustc-link-arg-bins=--nmagic");
+    println!("cargo::rustc-link-arg-bins=-Tlink.x");
+}

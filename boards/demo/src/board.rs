@@ -1,0 +1,142 @@
+//! What a firmware does: draws its jobs, and prints a line about each.
+//!
+//! Lines are `result key=value …`, for programs to read:
+//!
+//! | key | value |
+//! |---|---|
+//! | `board` | the firmware |
+//! | `job` | what was drawn |
+//! | `checksum` | of the pixels, hexadecimal |
+//! | `instructions` | spent tracing, without set-up and checksum |
+//! | `stack` | bytes of stack, row buffer and the tracer's work memory included |
+//! | `static` | bytes of static RAM |
+//! | `rays` | primary, reflection, transmission, shadow, ambient; with the feature `rays` |
+
+use core::panic::PanicInfo;
+
+use cortex_m::Peripherals;
+use semihosting::{print, println};
+
+use crate::counter::{self, Counter};
+use crate::frame::{self, Watch};
+use crate::job::Job;
+use crate::stack;
+
+/// Room for the command line: the firmware's path and a job for each scene.
+const COMMAND_LINE: usize = 1024;
+/// Rounds of the loop that checks the clock.
+const ROUNDS: u32 = 1_000_000;
+
+/// A board as this module needs it.
+pub struct Board {
+    name: &'static str,
+    clock_khz: u32,
+    counter: Counter,
+}
+
+impl Board {
+    /// The board `name`, whose core and SysTick run at `clock_khz`. Prints what a loop of two
+    /// million instructions counted as, which shows whether that clock is right.
+    ///
+    /// # Panics
+    /// When called twice.
+    #[must_use]
+    pub fn new(name: &'static str, clock_khz: u32) -> Self {
+        let syst = Peripherals::take().expect("a board is made once").SYST;
+        let mut board = Self { name, clock_khz, counter: Counter::new(syst) };
+        board.counter.before();
+        counter::spin(ROUNDS);
+        board.counter.after();
+        let counted = board.instructions();
+        println!("clock board={name} loop={} counted={counted}", 2 * ROUNDS);
+        board
+    }
+
+    /// Draws the jobs of the command line, or else [`Job::small`], one result line each.
+    pub fn draw_all(&mut self) {
+        let args = semihosting::experimental::env::args::<COMMAND_LINE>().ok();
+        // The first is the firmware's path.
+        let args = args.iter().flatten().skip(1).filter_map(Result::ok);
+        let mut any = false;
+        for arg in args {
+            any = true;
+            match arg.parse() {
+                Ok(job) => self.draw(&job),
+                Err(error) => {
+                    println!("error {arg}: {error}");
+                    exit(false)
+                }
+            }
+        }
+        if !any {
+            Job::small().for_each(|job| self.draw(&job));
+        }
+    }
+
+    /// Draws one job and prints its result.
+    pub fn draw(&mut self, job: &Job) {
+        let top = stack::paint();
+        let checksum = frame::draw(job, &mut self.counter, |_| {});
+        let stack = stack::used(top);
+        let instructions = self.instructions();
+        print!(
+            "result board={} job={job} checksum={:016x} instructions={instructions} \
+             stack={stack} static={}",
+            self.name,
+            checksum.value(),
+            stack::static_bytes(),
+        );
+        #[cfg(feature = "rays")]
+        print_rays(job, checksum);
+        println!();
+    }
+
+    /// Draws on a display, then prints a line `shown …` with what that took, tracing included.
+    pub fn shown(&mut self, draw: impl FnOnce()) {
+        let top = stack::paint();
+        self.counter.before();
+        draw();
+        self.counter.after();
+        let stack = stack::used(top);
+        let instructions = self.instructions();
+        println!("shown board={} instructions={instructions} stack={stack}", self.name);
+    }
+
+    /// What the counter holds, as instructions of a nanosecond each.
+    fn instructions(&mut self) -> u64 {
+        self.counter.take() * 1_000_000 / u64::from(self.clock_khz)
+    }
+}
+
+/// Draws the job again, counting: with the first time's instructions, those of counting would have
+/// been counted too.
+#[cfg(feature = "rays")]
+fn print_rays(job: &Job, checksum: crate::checksum::Checksum) {
+    let (again, rays) = frame::count(job);
+    if again != checksum {
+        println!("\nerror {job}: counting rays changes the picture");
+        exit(false)
+    }
+    print!(
+        " rays={},{},{},{},{}",
+        rays.primary, rays.reflection, rays.transmission, rays.shadow, rays.ambient
+    );
+}
+
+/// Ends the emulator, with success or without.
+pub fn exit(success: bool) -> ! {
+    semihosting::process::exit(i32::from(!success))
+}
+
+/// Leaves the picture on the display.
+pub fn idle() -> ! {
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+#[panic_handler]
+fn panic(info: &PanicInfo<'_>) -> ! {
+    println!("error {info}");
+    exit(false)
+}

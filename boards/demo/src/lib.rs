@@ -1,0 +1,17 @@
+//! What every firmware of this project shares: the scenes, the frame loop, checksums, and, on a
+//! chip, counting and reporting. The host uses the same scenes and the same frame loop to know
+//! what a board has to print, so all but the module `board` runs anywhere.
+#![no_std]
+
+pub mod checksum;
+pub mod frame;
+pub mod job;
+pub mod oled;
+pub mod scenes;
+
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+pub mod board;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod counter;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod stack;

@@ -1,0 +1,325 @@
+//! Calls every public entry point of the library with values that the compiler doesn't know, in
+//! all three arithmetics. If this links, none of them can panic.
+//!
+//! Left out are the constructors for `const` scenes (`new` where there is a `try_new`,
+//! `Parts::extents`, `Scene::checked`, `OctreeBuffer`), whose panics are compile errors, and text for people
+//! (`Display`, `Debug`), where the standard library's own formatting can.
+#![no_std]
+#![no_main]
+
+mod unlinkable;
+
+use core::hint::black_box as any;
+
+use embedded_graphics::image::Image;
+use embedded_graphics::pixelcolor as eg;
+use embedded_graphics::prelude::*;
+use embedded_graphics::primitives::Rectangle;
+use whitted::frame::{self, Dither, Output, Renderer, Sampling, Settings, Tone, Transfer};
+use whitted::math::{self, Arithmetic, Fixed};
+use whitted::octree::{self, Limits, Octree};
+use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Material};
+use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
+use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
+use whitted::shape::{Sphere, Triangle};
+use whitted::tally::{Counts, Tally};
+use whitted::trace::{Tracer, Work};
+use whitted::{Color, Picture};
+
+/// Where linking starts from.
+#[unsafe(no_mangle)]
+pub extern "C" fn probe() {
+    fixed();
+    single();
+    double();
+    formats();
+    numbers();
+}
+
+/// A scene of everything, made from run-time values in one arithmetic, and rendered in every way.
+macro_rules! arithmetic {
+    ($name:ident, $a:ty, $tally:ty) => {
+        #[inline(never)]
+        fn $name() -> Option<()> {
+            let spec = MaterialSpec {
+                ambient: any([0.1; 3]),
+                diffuse: any([0.5; 3]),
+                specular: any([0.5; 3]),
+                shininess: any(32.0),
+                reflection: any([0.2; 3]),
+                transmission: any([0.2; 3]),
+                index_front: any(1.0),
+                index_behind: any(1.5),
+                shadow: any(Shadow::Filtered),
+                pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
+            };
+            let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
+            let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
+            let planes = any([Plane::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
+            let corners = any([[0.0; 3], [1.0; 3], [2.0; 3]]);
+            let triangles = any([Triangle::<$a>::try_new(corners, any(0)).ok()?; 2]);
+            let smooth =
+                any([SmoothTriangle::<$a>::try_new(corners, any(corners), any(0)).ok()?; 2]);
+            let polygons = any([Polygon::<$a>::try_new(any(&corners), any(0), any(0)).ok()?; 2]);
+            any((polygons[0].first_edge(), polygons[0].edge_count()));
+            let edges = any([Polygon::<$a>::try_edge(any(&corners), any(0)).ok()?; 6]);
+            let cuboids =
+                any([Cuboid::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(0)).ok()?; 2]);
+            let discs =
+                any([Disc::<$a>::try_new(any([0.0; 3]), any([1.0; 3]), any(1.0), any(0)).ok()?; 2]);
+            let (base, apex) = (any([0.0; 3]), any([1.0; 3]));
+            let cylinders = any([Cylinder::<$a>::try_new(base, apex, any(1.0), any(0)).ok()?; 2]);
+            let cones = any([Cone::<$a>::try_new(base, any(1.0), apex, any(2.0), any(0)).ok()?; 2]);
+            any(Triangle::<$a>::extent_of(corners, any(-16)));
+            any(Polygon::<$a>::extent_of(any(&corners), any(-16)));
+            let (position, direction, intensity) = (any([1.0; 3]), any([1.0; 3]), any([9.0; 3]));
+            let falloff = any(Falloff::InverseSquare);
+            let (cos_inner, cos_outer) = (any(0.9), any(0.8));
+            let point = LightSpec::Point { position, intensity, falloff };
+            let directional = LightSpec::Directional { direction, intensity };
+            let spot =
+                LightSpec::Spot { position, direction, intensity, falloff, cos_inner, cos_outer };
+            let lights = any([
+                Light::<$a>::try_new(&point).ok()?,
+                Light::<$a>::try_new(&directional).ok()?,
+                Light::<$a>::try_new(&spot).ok()?,
+            ]);
+            any(lights[0].direction());
+            any(Background::<$a>::try_uniform(any([0.1; 3])).ok()?);
+            let background =
+                Background::<$a>::try_gradient(any([0.0; 3]), any([0.1; 3]), any([0.1; 3]));
+            let parts = Parts {
+                spheres: any(&spheres),
+                triangles: any(&triangles),
+                smooth_triangles: any(&smooth),
+                polygons: any(&polygons),
+                edges: any(&edges),
+                cuboids: any(&cuboids),
+                discs: any(&discs),
+                cylinders: any(&cylinders),
+                cones: any(&cones),
+                planes: any(&planes),
+                tree: any(None),
+                materials: any(&materials),
+                lights: any(&lights),
+                ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
+                background: any(background.ok()?),
+                rules: any(Rules::COURSE),
+            };
+            // A tree over the shapes as they are now, in memory of the caller's.
+            let step = any(-16);
+            let extents = any([
+                spheres[0].extent(step),
+                triangles[0].extent(step),
+                smooth[0].extent(step),
+                polygons[0].extent(step),
+                cuboids[0].extent(step),
+                discs[0].extent(step),
+                cylinders[0].extent(step),
+                cones[0].extent(step),
+            ]);
+            any(parts.bounded());
+            let (mut words, mut scratch) = (any([0; 80]), any([0; 80]));
+            let built =
+                octree::build_into(&extents, &mut words, &mut scratch, any(Limits::DEFAULT));
+            if let Err(error) = &built {
+                any(error.message());
+            }
+            let cube = any(built.ok()?).cube;
+            let tree = Octree::<$a>::try_new(any(&words), any(8), &cube, any(-16));
+            if let Err(error) = &tree {
+                any(error.message());
+            }
+            let scene = Scene::new(any(Parts { tree: any(tree.ok()), ..parts }));
+            if let Err(error) = &scene {
+                any(error.message());
+            }
+            let scene = any(scene.ok()?);
+            any(scene.parts());
+            any(spheres[0].at(any(spheres[1].center())).radius());
+
+            let camera =
+                Camera::<$a>::try_look_at(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any(1.0));
+            any(camera.ok()?);
+            let camera = Camera::<$a>::try_from_vectors(
+                any([0.0; 3]),
+                any([1.0; 3]),
+                any([0.0; 3]),
+                any([1.0; 3]),
+            );
+            render(&scene, &any(camera.ok()?), <$tally>::default())
+        }
+    };
+}
+
+arithmetic!(fixed, Fixed, Counts);
+arithmetic!(single, f32, ());
+arithmetic!(double, f64, ());
+
+/// Every way in which a picture leaves.
+#[inline(never)]
+fn render<A: Arithmetic, T: Tally + Copy>(
+    scene: &Scene<'_, A>,
+    camera: &Camera<A>,
+    tally: T,
+) -> Option<()> {
+    let mut work = any(Work::<A, 5>::default());
+    let mut samples = any([[A::BLACK; 3]; 64]);
+    let settings = Settings {
+        depth: any(5),
+        sampling: any(Sampling::Corners),
+        ..Settings::new(any(60), any(60))
+    };
+    any(settings.sampling.samples(any(60)));
+    let samples = &mut samples[..];
+    let mut renderer =
+        Renderer::with_tally(scene, camera, settings, &mut work, any(samples), tally).ok()?;
+    any(renderer.settings());
+    any(renderer.tally_mut());
+    let output =
+        any(Output { tone: Tone::SRGB.with_exposure(any(256)), dither: any(Dither::Ordered) });
+    for (x, y, radiance) in renderer.scan(any(0)..any(9), any(0)..any(9)) {
+        any(output.pixel::<A, frame::Rgb888>(&radiance, x, y));
+    }
+    any(renderer.scan(any(3)..any(1), any(7)..any(2)).next());
+    let ray = any(renderer.ray(any(3), any(4)));
+    any(renderer.radiance(&ray));
+    pixels(&mut renderer, &output);
+    let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
+    any(renderer.tally());
+
+    let tracer = any(Tracer::new(scene, any(5)));
+    let mut tally = tally;
+    any(tracer.nearest(&ray, &mut work, &mut tally));
+    any(tracer.radiance(&ray, &mut work, &mut tally));
+    let picture = Picture::<A, eg::Gray8, 5>::new(scene, camera, settings, &mut work, &mut []);
+    any(picture.ok()?.size());
+    let _ = any(Renderer::new(scene, camera, settings, &mut work, &mut []));
+    Some(())
+}
+
+/// One pixel format each: the tracer is compiled into every one of these calls, and the formats
+/// are asked by themselves in [`formats`].
+#[inline(never)]
+fn pixels<A: Arithmetic, T: Tally>(renderer: &mut Renderer<'_, A, 5, T>, output: &Output) {
+    let mut line = any([frame::Rgb888::default(); 60]);
+    if let Some(line) = line.get_mut(..any(60)) {
+        renderer.line(any(0), output, line);
+    }
+    let mut bytes = any([0; 240]);
+    if let Some(bytes) = bytes.get_mut(..any(240)) {
+        any(renderer.band::<frame::Rgb565>(any(0), output, bytes));
+    }
+    any((line, bytes));
+}
+
+#[inline(never)]
+fn picture<'a, A: Arithmetic, T: Tally, C: Color>(
+    renderer: Renderer<'a, A, 5, T>,
+    output: Output,
+) -> Option<Renderer<'a, A, 5, T>> {
+    let mut display = Display { size: any(Size::new(240, 240)), color: None };
+    let picture = Picture::<A, C, 5, T>::from_renderer(renderer, output);
+    let picture = any(picture.with_dither(any(Dither::None)));
+    any(Image::new(&picture, any(Point::zero())).draw(&mut display).is_ok());
+    let area = Rectangle::new(any(Point::zero()), any(Size::new(9, 9)));
+    any(picture.draw_sub_image(&mut display, &area).is_ok());
+    any(display.color);
+    picture.into_renderer()
+}
+
+/// A display that may fail.
+struct Display<C> {
+    size: Size,
+    color: Option<C>,
+}
+
+impl<C> OriginDimensions for Display<C> {
+    fn size(&self) -> Size {
+        self.size
+    }
+}
+
+impl<C: PixelColor> DrawTarget for Display<C> {
+    type Color = C;
+    type Error = ();
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<C>>>(&mut self, pixels: I) -> Result<(), ()> {
+        pixels.into_iter().for_each(|Pixel(_, color)| self.color = any(Some(color)));
+        any(Err(()))
+    }
+
+    fn fill_contiguous<I: IntoIterator<Item = C>>(
+        &mut self,
+        area: &Rectangle,
+        colors: I,
+    ) -> Result<(), ()> {
+        any(area);
+        colors.into_iter().for_each(|color| self.color = any(Some(color)));
+        any(Err(()))
+    }
+}
+
+/// Pixel formats and tone.
+#[inline(never)]
+fn formats() {
+    let tone = any(Tone::LINEAR);
+    any(tone.value(any(5)));
+    any(Transfer::Srgb);
+    let threshold = any(Dither::Ordered).threshold(any(1), any(2));
+    format::<eg::Rgb565>(threshold);
+    format::<eg::Rgb888>(threshold);
+    format::<eg::Gray8>(threshold);
+    format::<eg::Gray4>(threshold);
+    format::<eg::BinaryColor>(threshold);
+    any(MaterialId::new(any(7)).inside_only());
+    any(MaterialId::new(any(7)).index());
+}
+
+#[inline(never)]
+fn format<C: Color>(threshold: u16) {
+    let pixel = <C::Pixel as frame::Pixel>::quantize(any([1; 3]), threshold);
+    any(frame::Pixel::to_be_bytes(any(pixel)));
+    any(C::from_pixel(any(pixel)));
+}
+
+/// Functions on bare numbers.
+#[inline(never)]
+fn numbers() {
+    any(math::sqrt_f32(any(2.0)));
+    lengths::<Fixed>();
+    lengths::<f32>();
+    lengths::<f64>();
+}
+
+/// Operations of an arithmetic that the tracer may not need in this combination.
+#[inline(never)]
+fn lengths<A: Arithmetic>() {
+    let (t, u, w, r) = (any(A::FAR), any(A::ONE_UNIT), any(A::FULL), any(A::BLACK));
+    let (p, d) = (any([t; 3]), any([u; 3]));
+    any(A::along(&p, t, &d));
+    any(A::scale(t, u));
+    any(A::project(&p, &d));
+    any(A::dot(&d, &d));
+    any(A::product(u, u));
+    any(A::cosine(&d, &d));
+    any(A::reflect(&d, &d, u));
+    any(A::ratio(t, u));
+    any(A::normalize(&p).0);
+    any(A::renormalize(&d));
+    any(A::leave(&p, &d, t));
+    any(A::weight(w, w));
+    any(A::quotient(w, w));
+    any(A::weight_of(u));
+    any(A::dim(r, w));
+    any(A::gather(r, r));
+    any(A::mean(r, any(0)));
+    any(A::to_q16(r));
+    any(A::odd(t, t));
+    any(math::add(&p, &p));
+    any(math::sub(&p, &p));
+    any(math::neg(&d));
+    any(math::axis_of(&p, any(7)));
+    any(math::largest(&[w; 3]));
+    any(math::rgb(&[r; 3], &[w; 3], A::dim));
+}

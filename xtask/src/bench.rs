@@ -1,0 +1,320 @@
+//! Counting: instructions, rays, code and memory, in a table that is committed, so that a change
+//! shows as a difference.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+use whitted_demo::job::{ArithName, Job, SceneName};
+
+use crate::elf;
+use crate::firmware::result;
+use crate::machine::{self, MACHINES, Machine, Record};
+use crate::setup;
+use crate::shell::{boards, root};
+
+/// Counts move by this with unrelated edits.
+const TOLERANCE: f64 = 0.03;
+/// A full frame in software floating point takes a minute on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(900);
+
+/// What the bench is to do.
+pub(crate) struct Options {
+    /// Compare with the table, and leave it as it is.
+    check: bool,
+    /// Only this machine of QEMU, without writing the table.
+    machine: Option<String>,
+}
+
+impl Options {
+    /// From the command line.
+    pub(crate) fn read(words: &[&str]) -> Result<Self, String> {
+        let mut options = Self { check: false, machine: None };
+        let mut words = words.iter();
+        while let Some(&word) = words.next() {
+            match (word, words.as_slice().first()) {
+                ("--check", _) => options.check = true,
+                ("--machine", Some(&name)) if MACHINES.iter().any(|m| m.machine == name) => {
+                    options.machine = Some(name.into());
+                    words.next();
+                }
+                _ => {
+                    let names: Vec<_> = MACHINES.iter().map(|m| m.machine).collect();
+                    return Err(format!(
+                        "bench takes --check, and --machine with one of {}",
+                        names.join(", ")
+                    ));
+                }
+            }
+        }
+        Ok(options)
+    }
+}
+
+/// A table of the report. Its rows are known by the cells before `measure`, the one that is
+/// compared; the cell after that is the change.
+struct Table {
+    title: &'static str,
+    head: &'static [&'static str],
+    measure: usize,
+    rows: Vec<Vec<String>>,
+}
+
+const FRAMES: Table = Table {
+    title: "Frames",
+    head: &[
+        "core",
+        "scene",
+        "arithmetic",
+        "size",
+        "instructions/pixel",
+        "change",
+        "rays/pixel",
+        "shadow rays/pixel",
+        "stack, bytes",
+    ],
+    measure: 4,
+    rows: Vec::new(),
+};
+
+const IMAGES: Table = Table {
+    title: "Images",
+    head: &["image", "target", "code, bytes", "change", "constants, bytes", "static RAM, bytes"],
+    measure: 2,
+    rows: Vec::new(),
+};
+
+/// Counts, prints, and writes or compares.
+pub(crate) fn run(options: &Options) -> Result<(), String> {
+    setup::run()?;
+    let path = root().join("bench/table.md");
+    let before = committed(&path);
+    let (mut frames, mut images) = (FRAMES, IMAGES);
+    if options.machine.is_none() {
+        kernels(&mut images)?;
+    }
+    let mut seen = Vec::new();
+    for machine in &MACHINES {
+        if options.machine.as_ref().is_some_and(|only| only != machine.machine) {
+            continue;
+        }
+        println!("{} ({}) …", machine.core, machine.machine);
+        let firmware = machine.build()?;
+        let memory = count(machine, &firmware, &mut frames)?;
+        if !seen.contains(&firmware) {
+            let name = format!("firmware {}, all scenes in both", machine.board);
+            image(&mut images, &name, machine.target, &firmware, Some(memory))?;
+            seen.push(firmware);
+        }
+    }
+    let mut worse = Vec::new();
+    let mut text = HEADER.to_owned();
+    for table in [&mut frames, &mut images] {
+        compare(table, &before, &mut worse);
+        text.push_str(&table.to_markdown());
+    }
+    println!("{text}");
+    if options.check {
+        return if worse.is_empty() {
+            println!("within {} % of bench/table.md", TOLERANCE * 100.0);
+            Ok(())
+        } else {
+            Err(format!("worse than bench/table.md:\n{}", worse.join("\n")))
+        };
+    }
+    if options.machine.is_none() {
+        std::fs::create_dir_all(root().join("bench"))
+            .and_then(|()| std::fs::write(&path, text))
+            .map_err(|error| format!("bench/table.md: {error}"))?;
+        println!("written to bench/table.md");
+    }
+    Ok(())
+}
+
+const HEADER: &str = "\
+# Counts
+
+Made by `cargo xtask bench`; the column `change` is against the table committed before. All of it
+is emulated: QEMU with one nanosecond an instruction, so these are instructions, not cycles, and
+the same on every machine.
+
+- Instructions are those of tracing rows of 24-bit pixels; set-up and checksums aren't counted.
+- Rays are all but shadow rays, the camera's among them.
+- Stack is what a frame needs below its call: the tracer's memory for five generations and a row
+  of 320 pixels (960 bytes) among it.
+- Software floating point (f32 on Cortex-M0 and M3) is counted on small frames.
+- The images `limit-fixed` and `limit-f32` hold a row of the limit scene, 240 pixels of RGB565,
+  and nothing else.
+";
+
+/// The pictures to count on, at the sizes their peers have.
+fn jobs(machine: &Machine) -> Vec<Job> {
+    let sizes = [
+        (SceneName::Showcase, 160, 120),
+        (SceneName::Limit, 240, 240),
+        (SceneName::Raystones, 120, 60),
+        (SceneName::Ftb, 160, 120),
+    ];
+    let job = |(scene, width, height), arith| {
+        if arith == ArithName::F32 && !machine.float {
+            Job { scene, arith, width: 80, height: 60 }
+        } else {
+            Job { scene, arith, width, height }
+        }
+    };
+    sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith))).collect()
+}
+
+/// Runs a machine's jobs; returns the bytes of static RAM.
+fn count(machine: &Machine, firmware: &Path, table: &mut Table) -> Result<u64, String> {
+    let dump = firmware.with_extension("ppm");
+    let jobs = jobs(machine);
+    let log = machine.run(firmware, &jobs, &dump, PATIENCE)?;
+    let mut memory = 0;
+    for job in &jobs {
+        let record = result(&log, job)?;
+        memory = record.number("static")?;
+        table.rows.push(frame(machine, job, record)?);
+    }
+    Ok(memory)
+}
+
+fn frame(machine: &Machine, job: &Job, record: Record<'_>) -> Result<Vec<String>, String> {
+    let pixels = f64::from(job.width) * f64::from(job.height);
+    // The same as on the board, which `cargo xtask test` sees to.
+    let (_, counts) = whitted_demo::frame::count(job);
+    let shadow = counts.shadow as f64;
+    let others = (counts.rays() - counts.shadow) as f64;
+    let instructions = record.number("instructions")? as f64 / pixels;
+    Ok(vec![
+        machine.core.into(),
+        job.scene.name().into(),
+        job.arith.name().into(),
+        format!("{}×{}", job.width, job.height),
+        format!("{instructions:.0}"),
+        String::new(),
+        format!("{:.2}", others / pixels),
+        format!("{:.2}", shadow / pixels),
+        record.get("stack")?.into(),
+    ])
+}
+
+/// The programs that are nothing but a tracer.
+fn kernels(table: &mut Table) -> Result<(), String> {
+    for target in ["thumbv6m-none-eabi", "thumbv7em-none-eabihf"] {
+        for bin in ["limit-fixed", "limit-f32"] {
+            let program = machine::build(&boards().join("size"), bin, target)?;
+            image(table, bin, target, &program, None)?;
+        }
+    }
+    Ok(())
+}
+
+fn image(
+    table: &mut Table,
+    name: &str,
+    target: &str,
+    program: &Path,
+    memory: Option<u64>,
+) -> Result<(), String> {
+    let sizes = elf::sizes(program)?;
+    table.rows.push(vec![
+        name.into(),
+        target.into(),
+        sizes.text.to_string(),
+        String::new(),
+        sizes.constants.to_string(),
+        memory.map_or_else(String::new, |bytes| bytes.to_string()),
+    ]);
+    Ok(())
+}
+
+/// The table as it was committed last, or as it lies there.
+fn committed(path: &Path) -> String {
+    let git = Command::new("git")
+        .current_dir(root())
+        .args(["show", "HEAD:bench/table.md"])
+        .output()
+        .ok()
+        .filter(|output| output.status.success());
+    match git {
+        Some(output) => String::from_utf8_lossy(&output.stdout).into_owned(),
+        None => std::fs::read_to_string(path).unwrap_or_default(),
+    }
+}
+
+/// Fills in the changes, and names what has grown worse by more than the tolerance.
+fn compare(table: &mut Table, before: &str, worse: &mut Vec<String>) {
+    let measure = table.measure;
+    for row in &mut table.rows {
+        let Some(old) = find(before, &row[..measure]) else {
+            row[measure + 1] = "new".into();
+            continue;
+        };
+        let new: f64 = row[measure].parse().unwrap_or(f64::NAN);
+        let change = new / old - 1.0;
+        row[measure + 1] =
+            if new == old { "0".into() } else { format!("{:+.1} %", change * 100.0) };
+        // Also where it isn't a number.
+        if !(change <= TOLERANCE) {
+            worse.push(format!("{}: {old} → {new}", row[..measure].join(", ")));
+        }
+    }
+}
+
+/// The number that follows these cells in some row.
+fn find(text: &str, key: &[String]) -> Option<f64> {
+    text.lines().find_map(|line| {
+        let mut cells = line.strip_prefix('|')?.split('|').map(str::trim);
+        key.iter().all(|cell| cells.next() == Some(cell)).then(|| cells.next()?.parse().ok())?
+    })
+}
+
+impl Table {
+    fn to_markdown(&self) -> String {
+        let mut text = String::new();
+        let mut line = |cells: &mut dyn Iterator<Item = &str>| {
+            text.push('|');
+            cells.for_each(|cell| {
+                let _ = write!(text, " {cell} |");
+            });
+            text.push('\n');
+        };
+        line(&mut self.head.iter().copied());
+        line(&mut self.head.iter().enumerate().map(|(i, _)| {
+            // Numbers to the right.
+            if i < self.measure { "---" } else { "--:" }
+        }));
+        for row in &self.rows {
+            line(&mut row.iter().map(String::as_str));
+        }
+        format!("\n## {}\n\n{text}", self.title)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FRAMES, compare};
+
+    fn table(instructions: &str) -> super::Table {
+        let cells = ["Cortex-M0", "limit", "fixed", "8×8", instructions, "", "1", "1", "9"];
+        super::Table { rows: vec![cells.map(str::to_owned).to_vec()], ..FRAMES }
+    }
+
+    #[test]
+    fn changes_are_found_in_what_was_written() {
+        let before = table("1000").to_markdown();
+        for (now, change, bad) in
+            [("1000", "0", false), ("1029", "+2.9 %", false), ("1031", "+3.1 %", true)]
+        {
+            let (mut now, mut worse) = (table(now), Vec::new());
+            compare(&mut now, &before, &mut worse);
+            assert_eq!(now.rows[0][5], change);
+            assert_eq!(!worse.is_empty(), bad);
+        }
+        let mut new = table("1000");
+        compare(&mut new, "", &mut Vec::new());
+        assert_eq!(new.rows[0][5], "new");
+    }
+}

@@ -1,0 +1,92 @@
+//! Reading finished programs: how large they are, and who calls what.
+
+use std::path::Path;
+
+use addr2line::Loader;
+use object::read::elf::ElfFile32;
+use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SymbolKind};
+
+/// Bytes of a program.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sizes {
+    /// Code.
+    pub(crate) text: u64,
+    /// Constants, the scenes among them.
+    pub(crate) constants: u64,
+}
+
+/// How large a program is.
+pub(crate) fn sizes(path: &Path) -> Result<Sizes, String> {
+    with(path, |elf| {
+        let mut sizes = Sizes::default();
+        for section in elf.sections() {
+            match section.name().unwrap_or_default() {
+                ".text" => sizes.text += section.size(),
+                ".rodata" => sizes.constants += section.size(),
+                _ => {}
+            }
+        }
+        Ok(sizes)
+    })
+}
+
+/// Where a program, linked with its relocations kept, calls the functions that panics start in:
+/// the caller and the callee, with the source lines that were inlined there, the innermost first.
+/// The lines come from a twin without relocations.
+pub(crate) fn panics(path: &Path, twin: &Path) -> Result<Vec<String>, String> {
+    let lines = Loader::new(twin).map_err(|error| format!("{}: {error}", twin.display()))?;
+    with(path, |elf| {
+        let mut functions: Vec<_> =
+            elf.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text).collect();
+        functions.sort_by_key(ObjectSymbol::address);
+        let mut found = Vec::new();
+        for section in elf.sections().filter(|section| section.name() == Ok(".text")) {
+            for (address, relocation) in section.relocations() {
+                let RelocationTarget::Symbol(index) = relocation.target() else { continue };
+                let Ok(symbol) = elf.symbol_by_index(index) else { continue };
+                let callee = name(symbol.name());
+                if !callee.contains("panic") && !callee.ends_with("_fail") {
+                    continue;
+                }
+                let next = functions.partition_point(|function| function.address() <= address);
+                let caller =
+                    next.checked_sub(1).map_or_else(|| "?".into(), |i| name(functions[i].name()));
+                // Panics call each other; who began is of interest.
+                if caller.contains("panic") || caller.starts_with("core::") {
+                    continue;
+                }
+                found.push(format!("{caller} calls {callee}{}", inlined(&lines, address)));
+            }
+        }
+        found.sort();
+        found.dedup();
+        Ok(found)
+    })
+}
+
+/// The source lines behind an address, the innermost first.
+fn inlined(lines: &Loader, address: u64) -> String {
+    let mut text = String::new();
+    let Ok(mut frames) = lines.find_frames(address) else { return text };
+    while let Ok(Some(frame)) = frames.next() {
+        if let Some(place) = frame.location {
+            let (file, line) = (place.file.unwrap_or("?"), place.line.unwrap_or(0));
+            text.push_str(&format!("\n         at {file}:{line}"));
+        }
+    }
+    text
+}
+
+fn name(raw: Result<&str, object::Error>) -> String {
+    format!("{:#}", rustc_demangle::demangle(raw.unwrap_or("?")))
+}
+
+fn with<T>(
+    path: &Path,
+    read: impl FnOnce(&ElfFile32<'_>) -> Result<T, String>,
+) -> Result<T, String> {
+    let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let data = std::fs::read(path).map_err(|error| place(&error))?;
+    let elf = ElfFile32::<object::Endianness>::parse(&*data).map_err(|error| place(&error))?;
+    read(&elf)
+}

@@ -1,0 +1,80 @@
+//! The emulated boards against the host: the same scenes, the same bits.
+
+use std::time::Duration;
+
+use whitted::tally::Counts;
+use whitted_demo::frame;
+use whitted_demo::job::Job;
+
+use crate::machine::{Log, MACHINES, Record};
+use crate::oled;
+use crate::report::Report;
+
+/// A small frame takes a second or two; a busy machine may be slow.
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// Runs every firmware and compares what it says, and shows, with the host.
+pub(crate) fn check(report: &mut Report) {
+    let jobs: Vec<Job> = Job::small().collect();
+    for machine in &MACHINES {
+        let name = format!("{} ({}) runs", machine.core, machine.machine);
+        let Some((log, dump)) = report.check(&name, || {
+            let firmware = machine.build()?;
+            let dump = firmware.with_extension("ppm");
+            // A picture from before proves nothing.
+            let _ = std::fs::remove_file(&dump);
+            Ok((machine.run(&firmware, &jobs, &dump, PATIENCE)?, dump))
+        }) else {
+            continue;
+        };
+        report.check(&format!("{}: the clock counts instructions", machine.core), || clock(&log));
+        for job in &jobs {
+            report.check(&format!("{}: {job} has the host's bits", machine.core), || {
+                same_bits(&log, job)
+            });
+        }
+        if machine.display {
+            report
+                .check(&format!("{}: the display shows the host's picture", machine.core), || {
+                    oled::compare(&dump)
+                });
+        }
+    }
+}
+
+/// The loop of known length was counted right, to the tick at either end.
+fn clock(log: &Log) -> Result<(), String> {
+    let record = log.records("clock").next().ok_or("the firmware said nothing of its clock")?;
+    let (instructions, counted) = (record.number("loop")?, record.number("counted")?);
+    if counted.abs_diff(instructions) <= 200 {
+        Ok(())
+    } else {
+        Err(format!("{instructions} instructions were counted as {counted}"))
+    }
+}
+
+/// The result of a job in a log.
+pub(crate) fn result<'a>(log: &'a Log, job: &Job) -> Result<Record<'a>, String> {
+    let name = job.to_string();
+    log.records("result")
+        .find(|record| record.get("job") == Ok(&name))
+        .ok_or_else(|| format!("no result for {name}"))
+}
+
+/// Checksum and rays are those of the same frame on the host.
+fn same_bits(log: &Log, job: &Job) -> Result<(), String> {
+    let record = result(log, job)?;
+    let (checksum, rays) = frame::count(job);
+    let checksum = format!("{:016x}", checksum.value());
+    let Counts { primary, reflection, transmission, shadow, ambient, .. } = rays;
+    let rays = format!("{primary},{reflection},{transmission},{shadow},{ambient}");
+    let there = record.get("checksum")?;
+    if there != checksum {
+        return Err(format!("checksum {there}, on the host {checksum}"));
+    }
+    // Boards with little flash don't count.
+    match record.get("rays") {
+        Ok(there) if there != rays => Err(format!("rays {there}, on the host {rays}")),
+        _ => Ok(()),
+    }
+}

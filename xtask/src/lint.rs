@@ -1,0 +1,88 @@
+//! Formatting, lints, documentation, and the tests that run on the host.
+
+use std::path::Path;
+
+use crate::machine::MACHINES;
+use crate::report::Report;
+use crate::shell::{self, boards, cargo, root};
+
+/// Nothing may warn.
+const STRICT: [&str; 3] = ["--", "-D", "warnings"];
+
+/// Formatting, clippy and rustdoc, on the host and for every chip.
+pub(crate) fn check(report: &mut Report) {
+    let mut step = |name: &str, dir: &Path, words: &str, strict: bool| {
+        let args = words.split(' ').chain(STRICT.into_iter().take(if strict { 3 } else { 0 }));
+        report.check(name, || shell::run(cargo(dir, args).env("RUSTDOCFLAGS", "-D warnings")));
+    };
+    let (root, boards) = (root(), boards());
+    step("format", &root, "fmt --all --check", false);
+    step("format, boards", &boards, "fmt --all --check", false);
+    step("clippy, host", &root, "clippy -q --workspace --all-targets", true);
+    for target in ["thumbv6m-none-eabi", "thumbv7em-none-eabihf"] {
+        let words = format!("clippy -q --package whitted --target {target}");
+        step(&format!("clippy, library, {target}"), &root, &words, true);
+    }
+    step("clippy, demo", &boards, "clippy -q --package whitted-demo --all-targets", true);
+    let mut seen = Vec::new();
+    for machine in &MACHINES {
+        if seen.contains(&(machine.board, machine.target)) {
+            continue;
+        }
+        seen.push((machine.board, machine.target));
+        let name = format!("clippy, {}, {}", machine.board, machine.target);
+        let words = format!("clippy -q --target {}", machine.target);
+        // In the board's directory: its own settings hold only there.
+        step(&name, &boards.join(machine.board), &words, true);
+    }
+    for name in ["nopanic", "size"] {
+        let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
+        step(&format!("clippy, {name}"), &boards, &words, true);
+    }
+    step("documentation", &root, "doc -q --workspace --no-deps", false);
+    step("documentation, demo", &boards, "doc -q --package whitted-demo --no-deps", false);
+}
+
+/// The tests of the host's workspace, and of the part of the firmware that runs anywhere.
+pub(crate) fn host_tests(report: &mut Report) {
+    tests(report, "host tests", &root(), &["test", "--workspace", "--no-fail-fast"]);
+    tests(report, "tests of demo", &boards(), &["test", "--package", "whitted-demo"]);
+}
+
+fn tests(report: &mut Report, name: &str, dir: &Path, args: &[&str]) {
+    println!("     {name} …");
+    let output = match cargo(dir, args).stderr(std::process::Stdio::inherit()).output() {
+        Ok(output) => output,
+        Err(error) => return report.add(&format!("{name}: {error}"), 0, 1),
+    };
+    let text = String::from_utf8_lossy(&output.stdout);
+    let (passed, failed) =
+        text.lines().filter_map(counts).fold((0, 0), |sum, n| (sum.0 + n.0, sum.1 + n.1));
+    if !output.status.success() {
+        println!("{text}");
+    }
+    let ok = output.status.success() && failed == 0;
+    println!("{} {name}: {passed} passed, {failed} failed", if ok { "ok  " } else { "FAIL" });
+    // A test program that doesn't build, or dies, counts as one.
+    report.add(name, passed, if ok { 0 } else { failed.max(1) });
+}
+
+/// The numbers in `test result: ok. 5 passed; 0 failed; …`.
+fn counts(line: &str) -> Option<(u64, u64)> {
+    let (_, numbers) = line.strip_prefix("test result: ")?.split_once(". ")?;
+    let mut parts = numbers.split("; ");
+    let mut next = |word| parts.next()?.strip_suffix(word)?.trim().parse().ok();
+    Some((next("passed")?, next("failed")?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counts;
+
+    #[test]
+    fn result_lines() {
+        let line = "test result: FAILED. 12 passed; 3 failed; 0 ignored; 0 measured; 0 filtered";
+        assert_eq!(counts(line), Some((12, 3)));
+        assert_eq!(counts("running 3 tests"), None);
+    }
+}

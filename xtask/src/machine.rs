@@ -1,0 +1,221 @@
+//! The emulated boards: building their firmware, and running it in QEMU.
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use whitted_demo::job::Job;
+
+use crate::shell::{boards, cargo, output};
+
+/// A machine of QEMU with the firmware it runs.
+pub(crate) struct Machine {
+    /// As reports call it.
+    pub(crate) core: &'static str,
+    /// The directory below `boards/`, and the name of its program.
+    pub(crate) board: &'static str,
+    /// What it is built for.
+    pub(crate) target: &'static str,
+    /// QEMU's name.
+    pub(crate) machine: &'static str,
+    /// Whether single precision is done by the core.
+    pub(crate) float: bool,
+    /// Whether it shows a picture at the end, which ends with the monitor's `quit`.
+    pub(crate) display: bool,
+}
+
+/// All of them.
+pub(crate) const MACHINES: [Machine; 6] = [
+    Machine {
+        core: "Cortex-M0",
+        board: "microbit",
+        target: "thumbv6m-none-eabi",
+        machine: "microbit",
+        float: false,
+        display: false,
+    },
+    Machine {
+        core: "Cortex-M3 with OLED",
+        board: "lm3s6965evb",
+        target: "thumbv7m-none-eabi",
+        machine: "lm3s6965evb",
+        float: false,
+        display: true,
+    },
+    Machine {
+        core: "Cortex-M3",
+        board: "mps2",
+        target: "thumbv7m-none-eabi",
+        machine: "mps2-an385",
+        float: false,
+        display: false,
+    },
+    Machine {
+        core: "Cortex-M4F",
+        board: "mps2",
+        target: "thumbv7em-none-eabihf",
+        machine: "mps2-an386",
+        float: true,
+        display: false,
+    },
+    Machine {
+        core: "Cortex-M7",
+        board: "mps2",
+        target: "thumbv7em-none-eabihf",
+        machine: "mps2-an500",
+        float: true,
+        display: false,
+    },
+    Machine {
+        core: "Cortex-M33",
+        board: "mps2-m33",
+        target: "thumbv8m.main-none-eabihf",
+        machine: "mps2-an505",
+        float: true,
+        display: false,
+    },
+];
+
+/// What a firmware said.
+pub(crate) struct Log {
+    lines: Vec<String>,
+}
+
+impl Log {
+    /// The lines that begin with `word`, without it, as keys and values.
+    pub(crate) fn records(&self, word: &str) -> impl Iterator<Item = Record<'_>> {
+        self.lines
+            .iter()
+            .filter_map(move |line| Some(Record(line.strip_prefix(word)?.strip_prefix(' ')?)))
+    }
+}
+
+/// A line of keys and values.
+#[derive(Clone, Copy)]
+pub(crate) struct Record<'a>(&'a str);
+
+impl<'a> Record<'a> {
+    /// The value of a key.
+    pub(crate) fn get(self, key: &str) -> Result<&'a str, String> {
+        self.0
+            .split_whitespace()
+            .find_map(|pair| pair.strip_prefix(key)?.strip_prefix('='))
+            .ok_or_else(|| format!("no {key} in `{}`", self.0))
+    }
+
+    /// The value of a key, as a number.
+    pub(crate) fn number(self, key: &str) -> Result<u64, String> {
+        let text = self.get(key)?;
+        text.parse().map_err(|_| format!("{key}={text} isn't a number"))
+    }
+}
+
+/// Builds a program in a directory of its own settings and returns its path.
+pub(crate) fn build(dir: &Path, bin: &str, target: &str) -> Result<PathBuf, String> {
+    let args =
+        ["build", "-q", "--release", "--bin", bin, "--target", target, "--message-format=json"];
+    let messages = output(&mut cargo(dir, args))?;
+    // One message a line; only the finished program's names an executable that isn't null.
+    messages
+        .lines()
+        .filter_map(|line| {
+            let (_, rest) = line.split_once("\"executable\":\"")?;
+            let (path, _) = rest.split_once('"')?;
+            Some(PathBuf::from(path.replace("\\\\", "\\")))
+        })
+        .next_back()
+        .ok_or_else(|| format!("cargo names no program {bin}"))
+}
+
+impl Machine {
+    /// Builds the firmware.
+    pub(crate) fn build(&self) -> Result<PathBuf, String> {
+        build(&boards().join(self.board), self.board, self.target)
+    }
+
+    /// Runs a firmware on jobs. One that shows a picture has it dumped to `dump`.
+    pub(crate) fn run(
+        &self,
+        firmware: &Path,
+        jobs: &[Job],
+        dump: &Path,
+        patience: Duration,
+    ) -> Result<Log, String> {
+        let mut qemu = Command::new("qemu-system-arm");
+        qemu.args(["-machine", self.machine, "-icount", "shift=0", "-display", "none"]);
+        qemu.args(["-serial", "none", "-monitor", if self.display { "stdio" } else { "none" }]);
+        let mut semihosting = String::from("enable=on,target=native,arg=firmware");
+        for job in jobs {
+            semihosting.push_str(&format!(",arg={job}"));
+        }
+        qemu.args(["-semihosting-config", &semihosting, "-kernel"]).arg(firmware);
+        qemu.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit());
+        let dir = dump.parent().unwrap_or(Path::new("."));
+        qemu.current_dir(dir);
+        // The monitor's words end at blanks, so it gets the name alone.
+        let name = dump.file_name().unwrap_or_default().to_string_lossy();
+        let commands = format!("screendump {name}\nquit\n");
+        let child = qemu.spawn().map_err(|error| format!("qemu-system-arm: {error}"))?;
+        listen(Guard(child), &commands, patience)
+    }
+}
+
+/// Ends the emulator when nobody waits for it any more.
+struct Guard(Child);
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        // It fails when the emulator has ended by itself, as it should.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Collects what the firmware says until the emulator ends; types `commands` when a picture is
+/// shown.
+fn listen(mut qemu: Guard, commands: &str, patience: Duration) -> Result<Log, String> {
+    let mut stdin: Option<ChildStdin> = qemu.0.stdin.take();
+    let stdout = qemu.0.stdout.take().ok_or("no output")?;
+    let (sender, receiver) = mpsc::channel();
+    std::thread::spawn(move || {
+        for line in BufReader::new(stdout).split(b'\n').map_while(Result::ok) {
+            if sender.send(String::from_utf8_lossy(&line).into_owned()).is_err() {
+                break;
+            }
+        }
+    });
+    let end = Instant::now() + patience;
+    let mut lines: Vec<String> = Vec::new();
+    loop {
+        match receiver.recv_timeout(end.saturating_duration_since(Instant::now())) {
+            Ok(line) => {
+                // The monitor's prompt may stand before it.
+                let line = line.trim().trim_start_matches("(qemu) ").to_owned();
+                if line.starts_with("shown ") {
+                    let mut monitor = stdin.take().ok_or("two pictures shown")?;
+                    monitor.write_all(commands.as_bytes()).map_err(|e| e.to_string())?;
+                    // Kept open until the emulator ends.
+                    stdin = None;
+                    std::mem::forget(monitor);
+                }
+                lines.push(line);
+            }
+            Err(RecvTimeoutError::Disconnected) => break,
+            Err(RecvTimeoutError::Timeout) => {
+                return Err(format!(
+                    "not finished after {} s; its last line: {}",
+                    patience.as_secs(),
+                    lines.last().map_or("none", String::as_str)
+                ));
+            }
+        }
+    }
+    let status = qemu.0.wait().map_err(|error| error.to_string())?;
+    if status.success() {
+        Ok(Log { lines })
+    } else {
+        Err(format!("the firmware failed:\n{}", lines.join("\n")))
+    }
+}
