@@ -1,6 +1,8 @@
 //! What several tests need: single rays from plain numbers, and numbers back.
 #![allow(dead_code, unreachable_pub)]
 
+pub mod make;
+pub mod random;
 pub mod scenes;
 
 use whitted::frame::{Renderer, Settings};
