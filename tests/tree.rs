@@ -5,10 +5,11 @@ mod common;
 
 use common::make::{Body, Make, Shapes, body};
 use common::random::Random;
+use common::scenes::{double, fixed, single};
 use common::{ray, weight};
 use whitted::frame::{Renderer, Settings};
 use whitted::math::Fixed;
-use whitted::octree::Limits;
+use whitted::octree::{Limits, build_into};
 use whitted::scene::{Falloff, LightSpec, MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::shape::Ray;
 use whitted::tally::Counts;
@@ -17,6 +18,8 @@ use whitted::trace::{Tracer, Work};
 /// Steps of 2⁻²⁰ for floating point: ±128 units.
 const LOG2_STEP: i8 = -20;
 const SIZE: u16 = 20;
+/// So many scenes of each sort.
+const SEEDS: u64 = 4;
 
 /// What rays find, the work of the search left out.
 fn found(counts: &Counts) -> Counts {
@@ -150,8 +153,9 @@ fn floor() -> (Body, u16) {
 
 #[test]
 fn mixed_shapes() {
-    for (seed, count) in [(1, 30), (2, 80), (3, 300)] {
+    for seed in 0..SEEDS {
         let mut random = Random::new(seed);
+        let count = [30, 80, 300][seed as usize % 3];
         let mut bodies = vec![floor()];
         for i in 0..count {
             let (p, r) = (random.point(9.0), random.within(0.2, 2.0));
@@ -163,104 +167,145 @@ fn mixed_shapes() {
 
 #[test]
 fn sizes_from_specks_to_the_whole_scene() {
-    let mut random = Random::new(4);
-    let mut bodies = vec![];
-    for i in 0..120 {
-        let (p, r) = (random.point(9.0), 10f64.powf(random.within(-2.5, 1.3)));
-        bodies.push((body(&mut random, i % 8, p, r), random.below(6) as u16));
+    for seed in 0..SEEDS {
+        let mut random = Random::new(100 * 4 + seed);
+        let mut bodies = vec![];
+        for i in 0..120 {
+            let (p, r) = (random.point(9.0), 10f64.powf(random.within(-2.5, 1.3)));
+            bodies.push((body(&mut random, i % 8, p, r), random.below(6) as u16));
+        }
+        all_arithmetics("sizes", &bodies, seed);
     }
-    all_arithmetics("sizes", &bodies, 4);
 }
 
 #[test]
 fn clusters() {
-    let mut random = Random::new(5);
-    let mut bodies = vec![floor()];
-    let centers: Vec<_> = (0..4).map(|_| random.point(9.0)).collect();
-    for i in 0..160 {
-        let (c, q) = (centers[i % 4], random.point(0.6));
-        let p = [0, 1, 2].map(|j| c[j] + q[j]);
-        bodies.push((body(&mut random, i as u64 / 4 % 8, p, 0.25), random.below(6) as u16));
+    for seed in 0..SEEDS {
+        let mut random = Random::new(100 * 5 + seed);
+        let mut bodies = vec![floor()];
+        let centers: Vec<_> = (0..4).map(|_| random.point(9.0)).collect();
+        for i in 0..160 {
+            let (c, q) = (centers[i % 4], random.point(0.6));
+            let p = [0, 1, 2].map(|j| c[j] + q[j]);
+            bodies.push((body(&mut random, i as u64 / 4 % 8, p, 0.25), random.below(6) as u16));
+        }
+        all_arithmetics("clusters", &bodies, seed);
     }
-    all_arithmetics("clusters", &bodies, 5);
 }
 
 /// Balls and boxes on a grid of whole numbers, where they touch and where cells are cut.
 #[test]
 fn touching() {
-    let mut random = Random::new(6);
-    let mut bodies = vec![];
-    for i in 0..125u32 {
-        let p = [i % 5, i / 5 % 5, i / 25].map(|x| f64::from(x) * 2.0 - 4.0);
-        let material = random.below(6) as u16;
-        bodies.push(match i % 4 {
-            0 => (Body::Sphere(p, 1.0), material),
-            1 => (Body::Cuboid(p.map(|x| x - 1.0), p.map(|x| x + 1.0)), material),
-            2 => {
-                (Body::Cylinder([p[0], p[1] - 1.0, p[2]], [p[0], p[1] + 1.0, p[2]], 1.0), material)
-            }
-            _ => {
-                (Body::Cone([p[0], p[1] - 1.0, p[2]], 1.0, [p[0], p[1] + 1.0, p[2]], 0.0), material)
-            }
-        });
+    for seed in 0..SEEDS {
+        let mut random = Random::new(100 * 6 + seed);
+        let mut bodies = vec![];
+        for i in 0..125u32 {
+            let p = [i % 5, i / 5 % 5, i / 25].map(|x| f64::from(x) * 2.0 - 4.0);
+            let material = random.below(6) as u16;
+            bodies.push(match i % 4 {
+                0 => (Body::Sphere(p, 1.0), material),
+                1 => (Body::Cuboid(p.map(|x| x - 1.0), p.map(|x| x + 1.0)), material),
+                2 => (
+                    Body::Cylinder([p[0], p[1] - 1.0, p[2]], [p[0], p[1] + 1.0, p[2]], 1.0),
+                    material,
+                ),
+                _ => (
+                    Body::Cone([p[0], p[1] - 1.0, p[2]], 1.0, [p[0], p[1] + 1.0, p[2]], 0.0),
+                    material,
+                ),
+            });
+        }
+        all_arithmetics("touching", &bodies, seed);
     }
-    all_arithmetics("touching", &bodies, 6);
 }
 
 /// Flat shapes of different materials in the same planes, over one another: the lowest number
 /// counts, whichever the walk finds first.
 #[test]
 fn coplanar_overlaps() {
-    let mut random = Random::new(7);
-    let mut bodies = vec![];
-    for i in 0..96 {
-        let (axis, level) = (i % 3, f64::from(i as i32 / 3 % 3) * 3.0 - 3.0);
-        let mut at = |random: &mut Random, r: f64| {
-            let mut p = random.point(r);
-            p[axis] = 0.0;
-            p
-        };
-        let mut center = at(&mut random, 5.0);
-        center[axis] = level;
-        let mut normal = [0.0; 3];
-        normal[axis] = 1.0;
-        let mut corner = |u: f64, v: f64| {
-            let mut p = center;
-            p[(axis + 1) % 3] += u;
-            p[(axis + 2) % 3] += v;
-            p
-        };
-        let square = [corner(-2.0, -2.0), corner(2.0, -2.0), corner(2.0, 2.0), corner(-2.0, 2.0)];
-        let material = random.below(6) as u16;
-        bodies.push(match i / 9 % 4 {
-            0 => (Body::Disc(center, normal, 2.0), material),
-            1 => (Body::Polygon(square.to_vec()), material),
-            2 => (Body::Triangle([square[0], square[1], square[2]]), material),
-            _ => (
-                Body::Cuboid(
-                    [0, 1, 2].map(|i| square[0][i].min(square[2][i]) - normal[i]),
-                    square[2],
+    for seed in 0..SEEDS {
+        let mut random = Random::new(100 * 7 + seed);
+        let mut bodies = vec![];
+        for i in 0..96 {
+            let (axis, level) = (i % 3, f64::from(i as i32 / 3 % 3) * 3.0 - 3.0);
+            let at = |random: &mut Random, r: f64| {
+                let mut p = random.point(r);
+                p[axis] = 0.0;
+                p
+            };
+            let mut center = at(&mut random, 5.0);
+            center[axis] = level;
+            let mut normal = [0.0; 3];
+            normal[axis] = 1.0;
+            let corner = |u: f64, v: f64| {
+                let mut p = center;
+                p[(axis + 1) % 3] += u;
+                p[(axis + 2) % 3] += v;
+                p
+            };
+            let square =
+                [corner(-2.0, -2.0), corner(2.0, -2.0), corner(2.0, 2.0), corner(-2.0, 2.0)];
+            let material = random.below(6) as u16;
+            bodies.push(match i / 9 % 4 {
+                0 => (Body::Disc(center, normal, 2.0), material),
+                1 => (Body::Polygon(square.to_vec()), material),
+                2 => (Body::Triangle([square[0], square[1], square[2]]), material),
+                _ => (
+                    Body::Cuboid(
+                        [0, 1, 2].map(|i| square[0][i].min(square[2][i]) - normal[i]),
+                        square[2],
+                    ),
+                    material,
                 ),
-                material,
-            ),
-        });
+            });
+        }
+        all_arithmetics("coplanar overlaps", &bodies, seed);
     }
-    all_arithmetics("coplanar overlaps", &bodies, 7);
 }
 
 /// The same shapes several times with different materials.
 #[test]
 fn coincident_shapes() {
-    let mut random = Random::new(8);
-    let mut bodies = vec![];
-    for kind in 0..8 {
-        for _ in 0..3 {
-            let (p, r) = (random.point(7.0), random.within(0.8, 2.5));
-            let shape = body(&mut random, kind, p, r);
-            for material in [3, 0, 2, 1] {
-                bodies.push((shape.clone(), material));
+    for seed in 0..SEEDS {
+        let mut random = Random::new(100 * 8 + seed);
+        let mut bodies = vec![];
+        for kind in 0..8 {
+            for _ in 0..3 {
+                let (p, r) = (random.point(7.0), random.within(0.8, 2.5));
+                let shape = body(&mut random, kind, p, r);
+                for material in [3, 0, 2, 1] {
+                    bodies.push((shape.clone(), material));
+                }
             }
         }
+        all_arithmetics("coincident shapes", &bodies, seed);
     }
-    all_arithmetics("coincident shapes", &bodies, 8);
+}
+
+/// A static scene whose tree the compiler built.
+#[test]
+fn built_by_the_compiler() {
+    fn run<A: Make>(parts: Parts<'static, A>, bounded: usize) {
+        assert_eq!(parts.bounded() as usize, bounded);
+        let mut random = Random::new(9);
+        let rays: Vec<_> = (0..1000)
+            .map(|_| ray::<A>(random.point(6.0).map(|x| x + 0.5), random.direction()))
+            .collect();
+        same("compiled", parts, &rays);
+    }
+    run::<Fixed>(*fixed::every::SCENE.parts(), fixed::every::BOUNDED);
+    run::<f32>(*single::every::SCENE.parts(), single::every::BOUNDED);
+    run::<f64>(*double::every::SCENE.parts(), double::every::BOUNDED);
+    assert!(fixed::every::TREE.built().levels > 1);
+}
+
+/// The compiler and a program build the same words.
+#[test]
+fn built_at_run_time() {
+    let mut words = [0; 256];
+    let mut scratch = [0; 256];
+    let extents = fixed::every::PARTS.extents::<{ fixed::every::BOUNDED }>(-16);
+    let built = build_into(&extents, &mut words, &mut scratch, Limits::DEFAULT).expect("a tree");
+    assert_eq!(built, *fixed::every::TREE.built());
+    assert_eq!(words[..built.words], *fixed::every::TREE.words());
 }

@@ -233,7 +233,7 @@ fn add(a: Point, b: Point) -> Point {
 
 /// A shape of any bounded kind (0 to 7) somewhere near `p`, of about the size `r`.
 pub fn body(random: &mut Random, kind: u64, p: Point, r: f64) -> Body {
-    let mut near = |random: &mut Random| add(p, random.point(r));
+    let near = |random: &mut Random| add(p, random.point(r));
     match kind {
         0 => Body::Sphere(p, r),
         1 => Body::Triangle([near(random), near(random), near(random)]),
