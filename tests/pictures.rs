@@ -41,13 +41,13 @@ fn view(bodies: &[Body], spec: MaterialSpec, lights: &[LightSpec], floor: bool) 
         materials: &materials,
         lights: &lights,
         ambient: Fixed::ambient([0.6; 3]).expect("ambient"),
-        background: Fixed::gradient([0.0, 1.0, 0.0], [0.9; 3], [0.0; 3]).expect("sky"),
+        background: Fixed::gradient([0.0, 1.0, 0.0], [0.0; 3], [1.0; 3]).expect("sky"),
         rules: Rules::WHITTED,
         ..shapes.parts()
     })
     .expect("a scene");
     // down a little, and the characters' proportions
-    let (forward, right, down) = ([0.0, -0.25, 1.0], [0.25, 0.0, 0.0], [0.0, -0.5, -0.125]);
+    let (forward, right, down) = ([0.0, -0.2, 1.0], [0.18, 0.0, 0.0], [0.0, -0.36, -0.07]);
     let camera = Fixed::vectors([0.0, 1.6, -4.0], forward, right, down).expect("a camera");
     let mut work = Work::<Fixed, 5>::new();
     let settings = Settings::new(WIDTH, HEIGHT);
@@ -78,7 +78,21 @@ fn check(name: &str, got: &str, expected: &str) {
 #[test]
 fn a_ball_and_its_shadow() {
     let got = view(&[Body::Sphere([0.0, 0.8, 0.5], 0.8)], MATT, &[LAMP], true);
-    check("a_ball_and_its_shadow", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |=:=:=:=:=:XXXOOxo*:=:=:=:=:=|
+        |;***;;**OXXXOOOxo*+-**;;***;|
+        |oo;;;oooOOOOOxxo*+~-ooo;;;oo|
+        |xx-----xoxxxoo**=~--o;;;;;oo|
+        |xxxxx----=++++=~---,,,,--xxx|
+        |---OOOOOOO-,----,,----xxx---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_ball_and_its_shadow", &got, expected);
 }
 
 /// A mirror ball shows sky above, the floor below.
@@ -90,19 +104,47 @@ fn a_mirror() {
         &[LAMP],
         true,
     );
-    check("a_mirror", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |=:=:=:=:=:X######X:=:=:=:=:=|
+        |;***;;**xOXXX##XXXOx**;;***;|
+        |oo;;;ooo+xxxOOOOxxx+ooo;;;oo|
+        |xx-----xx-O-OOxx;x;oo;;;;;oo|
+        |xxxxx----xx-xxxx-x-,,,,--xxx|
+        |---OOOOOOO-,,,,,,,----xxx---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_mirror", &got, expected);
 }
 
-/// A glass ball shows the world upside down: the bright floor and horizon above, dark sky below.
+/// A glass ball shows the world upside down: the floor above, the bright sky below.
 #[test]
 fn glass() {
     let got = view(
         &[Body::Sphere([0.0, 0.8, 0.5], 0.8)],
-        MaterialSpec { transmission: [0.9; 3], index_behind: 1.5, ..MaterialSpec::BLACK },
+        MaterialSpec { transmission: [0.9; 3], index_behind: 1.4, ..MaterialSpec::BLACK },
         &[LAMP],
         true,
     );
-    check("glass", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |=:=:=:=:=:,;;;;;;;:=:=:=:=:=|
+        |;***;;**,oooooooooo;**;;***;|
+        |oo;;;ooo;**;;;;;;**;ooo;;;oo|
+        |xx-----xxo:::++:::oxo;;;;;oo|
+        |xxxxx----OxxxxxxxxO,,,,--xxx|
+        |---OOOOOOO-,XXXX,,----xxx---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("glass", &got, expected);
 }
 
 /// A pool of light on the floor that fades towards its edge.
@@ -121,14 +163,42 @@ fn a_spot() {
         }],
         true,
     );
-    check("a_spot", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |-,-,-,-,-,-,-,,-,-,-,-,-,-,-|
+        |,---,,--,,,--,,--,,,--,,---,|
+        |--,,,----,,,----,,,----,,,--|
+        |--,,,,,-----,,,,-----,,,,,--|
+        |-----:;-~~~######~~~-;:-----|
+        |,,,-=oOX##~~~~~~~~##XOo=-,,,|
+        |-,,,,,,::;*ooxxoo*;::,,,,,,-|
+        |,,,,,,,,,----------,,,,,,,,,|
+        |--------,,,,,,,,,,,,--------|
+    ";
+    check("a_spot", &got, expected);
 }
 
-/// A gradient, brightest below.
+/// A gradient, brightest above.
 #[test]
 fn sky() {
     let got = view(&[], MATT, &[], false);
-    check("sky", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxooooooooooooooooooxxxxx|
+        |oooooooooooooooooooooooooooo|
+        |oooooooooooooooooooooooooooo|
+        |ooooooooooo******ooooooooooo|
+        |****************************|
+        |****************************|
+        |********++++++++++++********|
+        |++++++++++++++++++++++++++++|
+    ";
+    check("sky", &got, expected);
 }
 
 #[test]
@@ -139,7 +209,21 @@ fn a_triangle() {
         &[LAMP],
         true,
     );
-    check("a_triangle", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxooxxxxxxxxxxxxx|
+        |=:=:=:=:=:=:oooo:=:=:=:=:=:=|
+        |;***;;**;;oooooooo;;**;;***;|
+        |oo;;;oooooooooooooooooo;;;oo|
+        |xx-----xooooooooooooo;;;;;oo|
+        |xxxxx-oooooooooooooooo,-xxxx|
+        |---OOoooooooooooooooooo-x---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_triangle", &got, expected);
 }
 
 /// As the flat one, but darker towards the right.
@@ -154,7 +238,21 @@ fn a_smooth_triangle() {
         &[LAMP],
         true,
     );
-    check("a_smooth_triangle", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxOOxxxxxxxxxxxxx|
+        |=:=:=:=:=:=:OOxx:=:=:=:=:=:=|
+        |;***;;**;;OOOOxxoo;;**;;***;|
+        |oo;;;ooooOOOOOxxoo*oooo;;;oo|
+        |xx-----xOOOOOxxoo*++o;;;;;oo|
+        |xxxxx-OOOOOOxxxo**+=~-,-xxxx|
+        |---OOxxxxxxxxxo**+=~----x---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_smooth_triangle", &got, expected);
 }
 
 /// A hexagon.
@@ -173,31 +271,101 @@ fn a_polygon() {
         &[LAMP],
         true,
     );
-    check("a_polygon", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxooooooooxxxxxxxx|
+        |=:=:=:=xxxooooooooooo=:=:=:=|
+        |;***;;xooooooooooooooo;;***;|
+        |oo;;;oooooooooooooooooo;;;oo|
+        |xx----oooooooooooooooo;;;;oo|
+        |xxxxx--oooooooooooooo,,-----|
+        |---OOOOOOoooooooooo---------|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_polygon", &got, expected);
 }
 
 /// Front and top, the top lighter.
 #[test]
 fn a_box() {
     let got = view(&[Body::Cuboid([-0.9, 0.0, -0.3], [0.7, 1.1, 1.2])], MATT, &[LAMP], true);
-    check("a_box", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |=:=:=:=:=:=:=::=:=:=:=:=:=:=|
+        |;***;;*xxxxxxxxxxxx;**;;***;|
+        |oo;;;oooooooooooooooooo;;;oo|
+        |xx----ooooooooooooooo;;;;;oo|
+        |xxxxx-oooooooooooooo,,,--xxx|
+        |---OOOoooooooooooooo-----,--|
+        |O-----oooooooooooooo-------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_box", &got, expected);
 }
 
 #[test]
 fn a_disc() {
     let got = view(&[Body::Disc([0.0, 1.0, 0.4], [-0.2, 0.6, -1.0], 0.9)], MATT, &[LAMP], true);
-    check("a_disc", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxXXXOOOOxxxxxxxxxx|
+        |=:=:=:=:=XXXXOOOOOOO:=:=:=:=|
+        |;***;;**XXXXOOOOOOOOO*;;***;|
+        |oo;;;ooXXXOOOOOOOOOOOoo;;;oo|
+        |xx-----xOOOOOOOOOOOOo;;;;;oo|
+        |xxxxx----OOOOOOOOO,,,,,----x|
+        |---OOOOOOO-,,,,,,,-----xx---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_disc", &got, expected);
 }
 
 /// Open above: the far wall is seen from within, the lower part of it in shadow.
 #[test]
 fn a_cylinder() {
     let got = view(&[Body::Cylinder([0.0, 0.0, 0.5], [0.0, 1.4, 0.5], 0.7)], MATT, &[LAMP], true);
-    check("a_cylinder", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |=:=:=:=:=-=*oxxOOOO=:=:=:=:=|
+        |;***;;**;OOxxoo*+~-;**;;***;|
+        |oo;;;ooooxxxxoo*+~-oooo;;;oo|
+        |xx-----xxxxxxoo*+~-xo;;;;;oo|
+        |xxxxx----xxxxoo*+~-,,,,---xx|
+        |---OOOOOOxxxxoo*+~---xxxx---|
+        |O---------OOOOOOxx---------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_cylinder", &got, expected);
 }
 
 #[test]
 fn a_cone() {
     let got = view(&[Body::Cone([0.0, 0.0, 0.5], 1.0, [0.0, 1.9, 0.5], 0.0)], MATT, &[LAMP], true);
-    check("a_cone", &got, "");
+    let expected = "
+        |OOOOOOOOOOOOOOOOOOOOOOOOOOOO|
+        |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
+        |xxxxxxxxxxxxxXoxxxxxxxxxxxxx|
+        |=:=:=:=:=:=:XOx+:=:=:=:=:=:=|
+        |;***;;**;;;XXOxo+;;;**;;***;|
+        |oo;;;oooo;XXXOxx*=;oooo;;;oo|
+        |xx-----xxXXXOOxxo*=xo;;;;;oo|
+        |xxxxx---OXXOOOxxo*+~,,,xxxxx|
+        |---OOOOOXXXOOOxxoo*+~-xxx---|
+        |O-------XXOOOOxxxo**-------x|
+        |---------OOOOOOOOOO---------|
+        |OOOOOOOO------------OOOOxxxx|
+    ";
+    check("a_cone", &got, expected);
 }
