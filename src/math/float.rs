@@ -428,7 +428,7 @@ macro_rules! float {
     };
 }
 
-float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, eps: 5.9604645e-8, slow: 9.5367431640625e-7);
+float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, eps: 5.9604645e-8, slow: 9.536_743e-7);
 float!(f64, 64, f64, sqrt: libm::sqrt, pow: libm::pow, eps: 1.1102230246251565e-16, slow: 1e-12);
 
 /// From `f64` to a float arithmetic's numbers: `None` for what is out of range or no number.

@@ -442,10 +442,9 @@ impl Arithmetic for Fixed {
             }
             rest -= square;
         }
-        // What the shift drops is positive: h is a floor, so hl may have either sign.
-        let correction = correction >> s << 1;
-        let rest = (rest as i64 - i64::from(correction)) as i64;
-        if rest <= 0 { None } else { Some(rest as u32) }
+        // h may be negative, and the rest then grows, but never beyond m² and a little
+        let rest = rest.checked_add_signed(-(correction >> s << 1))?;
+        if rest > 0 { Some(rest) } else { None }
     }
 
     #[inline(always)]
