@@ -131,13 +131,13 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'a, A, MAX_DE
 
     /// The radiance along any ray.
     pub fn radiance(&mut self, ray: &Ray<A>) -> Rgb<A::Radiance> {
-        self.tracer.radiance(ray, self.work, &mut self.tally)
+        self.tracer.radiance(*ray, self.work, &mut self.tally)
     }
 
     #[inline(always)]
     fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
-        self.tracer.radiance(&ray, self.work, &mut self.tally)
+        self.tracer.radiance(ray, self.work, &mut self.tally)
     }
 }
 

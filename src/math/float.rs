@@ -354,6 +354,12 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn ramp(middle: $f, slope: $f, u: $f) -> $f {
+                let sum = middle + slope * u;
+                if sum < 0.0 { 0.0 } else { sum }
+            }
+
+            #[inline(always)]
             fn gather(a: $f, b: $f) -> $f {
                 a + b
             }
@@ -465,6 +471,10 @@ mod constructors {
                         return None;
                     }
                     Some(FloatRadius { r: r as $f, reciprocal: (1.0 / r) as $f })
+                }
+
+                pub(crate) const fn middle_and_slope(low: $f, high: $f) -> ($f, $f) {
+                    ((low + high) * 0.5, (high - low) * 0.5)
                 }
 
                 pub(crate) const fn intensity(x: f64) -> Option<$f> {

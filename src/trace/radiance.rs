@@ -66,11 +66,11 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
     #[inline(never)]
     pub fn radiance<T: Tally, const MAX_DEPTH: usize>(
         &self,
-        ray: &Ray<A>,
+        ray: Ray<A>,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        let mut path = Path { ray: *ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
+        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
         loop {

@@ -687,6 +687,13 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn ramp(middle: I16F16, slope: I16F16, u: Unit) -> I16F16 {
+        // Rounding can leave u a little beyond ±1.
+        let sum = middle.to_bits().wrapping_add(length_times_unit(slope.to_bits(), u.to_bits()));
+        I16F16::from_bits(if sum < 0 { 0 } else { sum })
+    }
+
+    #[inline(always)]
     fn gather(a: I16F16, b: I16F16) -> I16F16 {
         a.saturating_add(b)
     }
