@@ -37,7 +37,7 @@ impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
         let (ray, leaving) = (self.ray, self.ray.leaving);
         let left = id == leaving.shape;
         let blocked =
-            !(left && !leaving.inwards) && sphere.occludes(ray, &self.coarse, left, self.limit);
+            (leaving.inwards || !left) && sphere.occludes(ray, &self.coarse, left, self.limit);
         self.note(blocked, id)
     }
 
