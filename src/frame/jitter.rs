@@ -59,8 +59,11 @@ mod tests {
                         let cell = (cell % side, cell / side);
                         let (a, b) = jittered(cell, side, (x, y), 7);
                         let n = u32::from(side);
-                        assert_eq!((u32::from(a) * n + n - 1) / 256, u32::from(cell.0));
-                        assert_eq!((u32::from(b) * n + n - 1) / 256, u32::from(cell.1));
+                        for (place, cell) in [(a, cell.0), (b, cell.1)] {
+                            // rounded down to 1/256
+                            let (at, low) = (u32::from(place) * n, u32::from(cell) * 256);
+                            assert!(at + n > low && at < low + 256, "{at} in cell {cell}");
+                        }
                         sum = [sum[0] + u32::from(a), sum[1] + u32::from(b)];
                         count += 1;
                     }
