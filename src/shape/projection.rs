@@ -132,7 +132,10 @@ impl<A: Arithmetic> Projection<A> {
         let o = cycled(&ray.origin, axis);
         let left =
             self.offset - o[0] - A::scale(o[1], self.slopes[0]) - A::scale(o[2], self.slopes[1]);
-        let (mut t, slope) = meets_plane::<A>(left, speed, limit)?;
+        // It is the corrected distance that counts: whether a plane lies within the limit must not
+        // depend on what else was hit before, or a tree and a list would differ.
+        let reach = if A::REFINE { A::FAR } else { limit };
+        let (mut t, slope) = meets_plane::<A>(left, speed, reach)?;
         let at = |t: A::Length| [o[1] + A::scale(t, d[1]), o[2] + A::scale(t, d[2])];
         let mut point = at(t);
         if A::REFINE {
@@ -147,6 +150,9 @@ impl<A: Arithmetic> Projection<A> {
             let off = if left > A::NO_LENGTH { left } else { -left };
             let step = A::ratio(off, slope);
             t = if ahead { t + step } else { t - step };
+            if t <= A::NO_LENGTH || t > limit {
+                return None;
+            }
             point = at(t);
         }
         Some(Crossing { distance: t, point, slope })
