@@ -24,19 +24,21 @@ impl FixedRadius {
     }
 }
 
+/// See [`Arithmetic::settle`](crate::math::Arithmetic::settle).
 #[inline(always)]
 pub(super) fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
     // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
-    let e = (1 << 17) - project(&units(n), &units(n));
+    let e = (1i32 << 17).wrapping_sub(project(&units(n), &units(n)));
     let half = e >> 1;
     let off = length_times_unit(r.bits(), half);
     for (n, p) in n.iter_mut().zip(p) {
         let unit = n.to_bits();
         *p = I16F16::from_bits(p.to_bits().wrapping_add(length_times_unit(off, unit)));
-        *n = Unit::from_bits(unit.wrapping_add(unit.wrapping_mul(half) >> 17));
+        *n = Unit::from_bits(unit.wrapping_add(length_times_unit(unit, half)));
     }
 }
 
+/// See [`Arithmetic::leg2`](crate::math::Arithmetic::leg2).
 #[inline(always)]
 pub(super) fn leg2(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> Option<u32> {
     let bound = r.bits();
@@ -63,6 +65,7 @@ pub(super) fn leg2(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -
     if rest > 0 { Some(rest) } else { None }
 }
 
+/// See [`Arithmetic::ahead`](crate::math::Arithmetic::ahead).
 #[inline(always)]
 pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> I16F16 {
     // |c − t·d| is below r, sixteen bits, and |d| fifteen: the sum of products fits
@@ -76,6 +79,7 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
+/// See [`Arithmetic::may_hit`](crate::math::Arithmetic::may_hit).
 #[inline(always)]
 pub(super) fn may_hit(
     ray: &FixedCoarse,
