@@ -29,7 +29,7 @@ fn quotient(a: i64, b: i64) -> Unit {
     Unit::from_bits(if negative { -q } else { q })
 }
 
-/// See [`Arithmetic::cone`](crate::math::Arithmetic::cone).
+/// See `Arithmetic::cone`.
 #[inline(always)]
 pub(super) fn cone(
     w: &[Unit; 3],

@@ -46,7 +46,7 @@ pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
     ([unit(x[0]), unit(x[1]), unit(x[2])], length)
 }
 
-/// See [`Arithmetic::normalize`](crate::math::Arithmetic::normalize).
+/// See `Arithmetic::normalize`.
 #[inline(always)]
 pub(super) fn normalize(v: &[I16F16; 3]) -> ([Unit; 3], I16F16, FixedInverse) {
     // Fifteen bits a component do for the way to a light; rounding them before they are
@@ -65,7 +65,7 @@ pub(super) fn normalize(v: &[I16F16; 3]) -> ([Unit; 3], I16F16, FixedInverse) {
     ([unit(h[0]), unit(h[1]), unit(h[2])], I16F16::from_bits(length), inverse)
 }
 
-/// See [`Arithmetic::refract`](crate::math::Arithmetic::refract).
+/// See `Arithmetic::refract`.
 #[inline(always)]
 pub(super) fn refract(
     d: &[Unit; 3],

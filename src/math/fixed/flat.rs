@@ -28,7 +28,7 @@ fn slack_steps(slope: Unit, s: u8) -> i32 {
     3 + if off > 1024 { 1024 } else { off }
 }
 
-/// See [`Arithmetic::barycentric`](crate::math::Arithmetic::barycentric).
+/// See `Arithmetic::barycentric`.
 #[inline(always)]
 pub(super) fn barycentric(
     form: &FixedBarycentric,
@@ -62,7 +62,7 @@ pub(super) fn barycentric(
     Some((Weight::from_bits(b), Weight::from_bits(c)))
 }
 
-/// See [`Arithmetic::weights`](crate::math::Arithmetic::weights).
+/// See `Arithmetic::weights`.
 #[inline(always)]
 pub(super) fn weights(form: &FixedBarycentric, x: I16F16, y: I16F16) -> (Weight, Weight) {
     let s = form.shift & 31;
@@ -84,7 +84,7 @@ pub(super) fn weights(form: &FixedBarycentric, x: I16F16, y: I16F16) -> (Weight,
     (Weight::from_bits(b), Weight::from_bits(c))
 }
 
-/// See [`Arithmetic::spot`](crate::math::Arithmetic::spot).
+/// See `Arithmetic::spot`.
 #[inline(always)]
 pub(super) fn spot(outline: &FixedOutline, x: I16F16, y: I16F16, slope: Unit) -> Option<FixedSpot> {
     let s = outline.shift & 31;
@@ -98,7 +98,7 @@ pub(super) fn spot(outline: &FixedOutline, x: I16F16, y: I16F16, slope: Unit) ->
     Some(FixedSpot { x, y, slack_q14: slack << 14 })
 }
 
-/// See [`Arithmetic::beyond`](crate::math::Arithmetic::beyond).
+/// See `Arithmetic::beyond`.
 #[inline(always)]
 pub(super) fn beyond(edge: &FixedEdge, spot: &FixedSpot) -> bool {
     let p = (edge.normal[0] as i32).wrapping_mul(spot.x);
@@ -106,7 +106,7 @@ pub(super) fn beyond(edge: &FixedEdge, spot: &FixedSpot) -> bool {
     p.wrapping_add(q).wrapping_add((edge.offset as i32) << 14) < -spot.slack_q14
 }
 
-/// See [`Arithmetic::blend`](crate::math::Arithmetic::blend).
+/// See `Arithmetic::blend`.
 #[inline(always)]
 pub(super) fn blend(n: &[[Unit; 3]; 3], b: Weight, c: Weight) -> [Unit; 3] {
     let (b, c) = (b.to_bits(), c.to_bits());

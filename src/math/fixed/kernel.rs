@@ -35,8 +35,8 @@ pub(super) fn project(v: &[i32; 3], d: &[i32; 3]) -> i32 {
 
 #[inline(always)]
 fn project_wide(v: &[i32; 3], d: &[i32; 3]) -> i32 {
-    let p = |i: usize| i64::from(v[i]) * i64::from(d[i]);
-    ((p(0) + p(1) + p(2)) >> 17) as i32
+    let p = |i: usize| i64::from(v[i]).wrapping_mul(i64::from(d[i]));
+    (p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 17) as i32
 }
 
 #[inline(always)]

@@ -4,7 +4,7 @@ use super::kernel::wide_shr;
 use super::{BRIGHTEST, FixedIntensity, FixedInverse};
 use ::fixed::types::I16F16;
 
-/// See [`Arithmetic::falloff`](crate::math::Arithmetic::falloff).
+/// See `Arithmetic::falloff`.
 #[inline(always)]
 pub(super) fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16F16 {
     let y_q14 = inverse.mantissa_q15 >> 1;
@@ -14,7 +14,7 @@ pub(super) fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16
     I16F16::from_bits(wide_shr(p_q30, -exponent, BRIGHTEST) as i32)
 }
 
-/// See [`Arithmetic::constant`](crate::math::Arithmetic::constant).
+/// See `Arithmetic::constant`.
 #[inline(always)]
 pub(super) fn constant(intensity: &FixedIntensity) -> I16F16 {
     let p = wide_shr(intensity.mantissa_q15 as u32, -i32::from(intensity.exponent) - 1, BRIGHTEST);

@@ -24,7 +24,7 @@ impl FixedRadius {
     }
 }
 
-/// See [`Arithmetic::settle`](crate::math::Arithmetic::settle).
+/// See `Arithmetic::settle`.
 #[inline(always)]
 pub(super) fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
     // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
@@ -38,7 +38,7 @@ pub(super) fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
     }
 }
 
-/// See [`Arithmetic::leg2`](crate::math::Arithmetic::leg2).
+/// See `Arithmetic::leg2`.
 #[inline(always)]
 pub(super) fn leg2(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> Option<u32> {
     let bound = r.bits();
@@ -65,7 +65,7 @@ pub(super) fn leg2(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -
     if rest > 0 { Some(rest) } else { None }
 }
 
-/// See [`Arithmetic::ahead`](crate::math::Arithmetic::ahead).
+/// See `Arithmetic::ahead`.
 #[inline(always)]
 pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> I16F16 {
     // |c − t·d| is below r, sixteen bits, and |d| fifteen: the sum of products fits
@@ -79,7 +79,7 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
-/// See [`Arithmetic::may_hit`](crate::math::Arithmetic::may_hit).
+/// See `Arithmetic::may_hit`.
 #[inline(always)]
 pub(super) fn may_hit(
     ray: &FixedCoarse,
