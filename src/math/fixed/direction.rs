@@ -59,7 +59,8 @@ pub(super) fn normalize(v: &[I16F16; 3]) -> ([Unit; 3], I16F16, FixedInverse) {
     let (y_q29, half, m) = inverse_root(sum);
     // h·Y·2^(half + 1) in Q17: |h|·Y is at most 2¹⁶, so the product fits at Q14
     let y_q14 = (y_q29.wrapping_add(1 << 14) >> 15) as i32;
-    let unit = |h: i32| Unit::from_bits(h.wrapping_mul(y_q14) >> (13 - half));
+    let round = 1 << (12 - half);
+    let unit = |h: i32| Unit::from_bits(h.wrapping_mul(y_q14).wrapping_add(round) >> (13 - half));
     let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
     let inverse = FixedInverse { mantissa_q15: y_q29 >> 14, exponent: half as i32 + up - 15 };
     ([unit(h[0]), unit(h[1]), unit(h[2])], I16F16::from_bits(length), inverse)
