@@ -87,11 +87,16 @@ fn by_lines(sampling: Sampling) -> Vec<u16> {
     all
 }
 
-const BOTH: [Sampling; 2] = [Sampling::Center, Sampling::Corners];
+const ALL: [Sampling; 4] = [
+    Sampling::Center,
+    Sampling::Corners,
+    Sampling::Grid { side: 2 },
+    Sampling::Jittered { side: 2, seed: 3 },
+];
 
 #[test]
 fn bands_are_the_lines_whatever_their_height() {
-    for sampling in BOTH {
+    for sampling in ALL {
         let lines = by_lines(sampling);
         for height in [1, 7, 30, 40] {
             let mut work = Work::<Fixed, 5>::new();
@@ -118,7 +123,7 @@ fn bands_are_the_lines_whatever_their_height() {
 
 #[test]
 fn lines_in_any_order_are_the_same() {
-    for sampling in BOTH {
+    for sampling in ALL {
         let lines = by_lines(sampling);
         let mut work = Work::<Fixed, 5>::new();
         let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
@@ -157,7 +162,7 @@ fn drawn(sampling: Sampling, place: Point) -> (Screen, u64) {
 
 #[test]
 fn only_what_shows_is_traced_in_one_fill() {
-    for sampling in BOTH {
+    for sampling in ALL {
         let lines = by_lines(sampling);
         for (x, y) in [(0, 0), (-15, -10), (10, 5), (-30, 12), (24, 19)] {
             let (screen, rays) = drawn(sampling, Point::new(x, y));
@@ -201,7 +206,7 @@ fn a_sub_image_is_the_same_pixels_at_its_own_place() {
 
 #[test]
 fn after_an_error_the_next_frame_is_whole() {
-    for sampling in BOTH {
+    for sampling in ALL {
         let lines = by_lines(sampling);
         let mut work = Work::<Fixed, 5>::new();
         let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
@@ -235,6 +240,10 @@ fn what_does_not_fit_is_said_when_the_renderer_is_made() {
     let corners = Settings { sampling: Sampling::Corners, ..Settings::new(10, 10) };
     assert_eq!(error(corners, 10), Some(FrameError::Samples { needed: 11 }));
     assert_eq!(error(corners, 11), None);
+    let cells = |side| Settings { sampling: Sampling::Grid { side }, ..Settings::new(10, 10) };
+    assert_eq!(error(cells(8), 0), None);
+    assert_eq!(error(cells(0), 0), Some(FrameError::Cells { side: 0 }));
+    assert_eq!(error(cells(9), 0), Some(FrameError::Cells { side: 9 }));
 }
 
 #[test]

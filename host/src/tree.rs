@@ -76,7 +76,7 @@ pub fn tree<A: Construct>(
     let ray = view.ray(&view.row(y as u16, 128), x as u16, 128);
     let mut tree = Tree::default();
     let mut work = Work::<A, MAX_DEPTH>::new();
-    tree.sum = radiance::<A>(&Tracer::new(&scene, depth).radiance(&ray, &mut work, &mut tree));
+    tree.sum = radiance::<A>(&Tracer::new(&scene, depth).radiance(ray, &mut work, &mut tree));
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };
         *distance /= baked.placement.scale();

@@ -64,6 +64,12 @@ fn published_counts() {
         if matches!(name, "balls" | "rings") {
             assert_eq!(ours[0], published[0], "{name}");
         }
+        let [single, fixed] = [counts::<f32>(&document, 512), counts::<Fixed>(&document, 512)];
+        for (arithmetic, others) in [("f32", by_kind(&single)), ("fixed", by_kind(&fixed))] {
+            for (a, b) in others.into_iter().zip(ours) {
+                assert!(off(a, b) <= 0.2, "{name}, {arithmetic}: {others:?} against {ours:?}");
+            }
+        }
     }
 }
 

@@ -14,6 +14,11 @@ pub enum FrameError {
         /// What there is memory for.
         max: u8,
     },
+    /// A pixel can be cut into 1×1 to 8×8 cells.
+    Cells {
+        /// How many each way were asked for.
+        side: u8,
+    },
     /// The sampling needs to remember more radiances than the slice holds.
     Samples {
         /// How many it needs.
@@ -27,6 +32,9 @@ impl fmt::Display for FrameError {
             Self::Size => f.write_str("a picture has 1 to 16384 pixels each way"),
             Self::Depth { depth, max } => {
                 write!(f, "depth {depth} isn't within 1 and the memory's {max}")
+            }
+            Self::Cells { side } => {
+                write!(f, "a pixel can be cut into 1 to 8 cells each way, not {side}")
             }
             Self::Samples { needed } => {
                 write!(f, "this sampling must remember {needed} radiances")

@@ -6,6 +6,7 @@
 
 mod band;
 mod error;
+mod jitter;
 mod pixel;
 mod renderer;
 mod tone;
@@ -24,13 +25,26 @@ pub enum Sampling {
     /// One through each pixel's corner, the mean of four making a pixel: (W + 1)·(H + 1) rays, as
     /// the Standard Procedural Databases ask. Needs a row of W + 1 radiances.
     Corners,
+    /// One through the middle of each of `side`×`side` cells of the pixel, averaged.
+    Grid {
+        /// 1 to 8.
+        side: u8,
+    },
+    /// One at random within each of `side`×`side` cells, averaged: regular patterns turn into
+    /// noise. The same seed gives the same picture on every machine.
+    Jittered {
+        /// 1 to 8.
+        side: u8,
+        /// Which of the random pictures.
+        seed: u16,
+    },
 }
 
 impl Sampling {
     /// How many radiances the renderer must remember for pictures of this width.
     pub const fn samples(self, width: u16) -> usize {
         match self {
-            Self::Center => 0,
+            Self::Center | Self::Grid { .. } | Self::Jittered { .. } => 0,
             Self::Corners => width as usize + 1,
         }
     }

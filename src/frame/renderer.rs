@@ -1,6 +1,6 @@
 //! The renderer: rows of radiance, in any order, in the caller's memory.
 
-use super::{FrameError, Output, Pixel, Sampling, Settings};
+use super::{FrameError, Output, Pixel, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
@@ -72,6 +72,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'a, A, MAX_DE
             let max = if MAX_DEPTH > 255 { 255 } else { MAX_DEPTH as u8 };
             return Err(FrameError::Depth { depth, max });
         }
+        if let Sampling::Grid { side } | Sampling::Jittered { side, .. } = sampling
+            && !(1..=8).contains(&side)
+        {
+            return Err(FrameError::Cells { side });
+        }
         let needed = sampling.samples(width);
         if samples.len() < needed {
             return Err(FrameError::Samples { needed });
@@ -131,13 +136,13 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'a, A, MAX_DE
 
     /// The radiance along any ray.
     pub fn radiance(&mut self, ray: &Ray<A>) -> Rgb<A::Radiance> {
-        self.tracer.radiance(ray, self.work, &mut self.tally)
+        self.tracer.radiance(*ray, self.work, &mut self.tally)
     }
 
     #[inline(always)]
     fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
-        self.tracer.radiance(&ray, self.work, &mut self.tally)
+        self.tracer.radiance(ray, self.work, &mut self.tally)
     }
 }
 
@@ -170,6 +175,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Scan<'_, '_, A, MAX_DEPTH,
         let y = self.rows.start;
         match self.renderer.settings.sampling {
             Sampling::Center => self.row = self.renderer.view.row(y, 128),
+            Sampling::Grid { .. } | Sampling::Jittered { .. } => {}
             Sampling::Corners => {
                 let wanted = Remembered { y, columns: (self.columns.start, self.columns.end) };
                 if self.renderer.remembered != Some(wanted) {
@@ -193,6 +199,27 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Scan<'_, '_, A, MAX_DEPTH,
         if let Some(place) = self.renderer.samples.get_mut(usize::from(x)) {
             *place = corner;
         }
+    }
+
+    /// The mean of a ray to each of `side`×`side` cells of the pixel at x, at the place that
+    /// `place` gives.
+    #[inline(always)]
+    fn cells(
+        &mut self,
+        x: u16,
+        side: u8,
+        place: impl Fn((u8, u8)) -> (u8, u8),
+    ) -> Rgb<A::Radiance> {
+        let mut sum = [A::BLACK; 3];
+        for j in 0..side {
+            for i in 0..side {
+                let (right, down) = place((i, j));
+                let row = self.renderer.view.row(self.rows.start, down);
+                let radiance = self.renderer.trace(&row, x, right);
+                sum = rgb(&sum, &radiance, A::gather);
+            }
+        }
+        sum.map(|sum| A::mean(sum, u16::from(side) * u16::from(side)))
     }
 
     /// The mean of the four corners of the pixel at x.
@@ -227,6 +254,11 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Iterator for Scan<'_, '_, 
         let radiance = match self.renderer.settings.sampling {
             Sampling::Center => self.renderer.trace(&self.row, x, 128),
             Sampling::Corners => self.corners(x),
+            Sampling::Grid { side } => self.cells(x, side, |cell| jitter::middle(cell, side)),
+            Sampling::Jittered { side, seed } => {
+                let pixel = (x, self.rows.start);
+                self.cells(x, side, |cell| jitter::jittered(cell, side, pixel, seed))
+            }
         };
         Some((x, self.rows.start, radiance))
     }

@@ -282,6 +282,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn power(cos: Self::Weight, n: &Self::Exponent) -> Self::Weight;
     /// `r·w`.
     fn dim(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
+    /// `middle + slope·u`, not below 0, for |slope| ≤ middle.
+    fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
     /// The mean of `count` radiances that sum to `sum`.

@@ -1,13 +1,15 @@
 //! The octree: a cube cut in eight, again and again (Glassner 1984; the walk after Revelles,
 //! Ureña and Lastra 2000 and Laine and Karras 2010).
 
+mod buffer;
 mod builder;
 mod extent;
 mod node;
 mod overlap;
 mod walk;
 
-pub use builder::{BuildError, Built, Cube, Limits, OctreeBuffer, build_into};
+pub use buffer::OctreeBuffer;
+pub use builder::{BuildError, Built, Cube, Limits, build_into};
 pub use extent::Extent;
 pub use node::{MAX_ID_BITS, MAX_LEVELS, TreeError, validate};
 pub use walk::{Octree, Visitor, WalkStack};

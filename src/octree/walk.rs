@@ -15,7 +15,8 @@
 //! parameter is wrong, it is the position along the ray that is wrong by less than the builder's
 //! margin, so the shape was listed in a cell already seen.
 
-use super::builder::{Cube, LEAST_LOG2_SIDE, MOST_LOG2_SIDE, OctreeBuffer};
+use super::OctreeBuffer;
+use super::builder::{Cube, LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
 use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 

@@ -8,14 +8,15 @@ use crate::shape::{ShapeError, ok_or_panic, some_or, unit_vector};
 pub enum Background<A: Arithmetic> {
     /// The same everywhere.
     Uniform(Rgb<A::Radiance>),
-    /// Linear in the direction's component along `up`, from `bottom` at −1 to `top` at 1.
+    /// Linear in the direction's component along `up`.
     Gradient {
         /// The vertical.
         up: [A::Unit; 3],
-        /// The radiance straight below.
-        bottom: Rgb<A::Radiance>,
-        /// The radiance straight above.
-        top: Rgb<A::Radiance>,
+        /// The radiance at the horizon.
+        middle: Rgb<A::Radiance>,
+        /// What is added straight above, and taken away straight below; no more than `middle`
+        /// either way.
+        slope: Rgb<A::Radiance>,
     },
 }
 
@@ -27,13 +28,9 @@ impl<A: Arithmetic> Background<A> {
     pub(crate) fn radiance(&self, direction: &[A::Unit; 3]) -> Rgb<A::Radiance> {
         match self {
             Self::Uniform(radiance) => *radiance,
-            Self::Gradient { up, bottom, top } => {
-                let height = A::weight_of(A::dot(direction, up)) + A::FULL;
-                // Rounding can leave a component a little beyond ±1.
-                let height = if height < A::NO_WEIGHT { A::NO_WEIGHT } else { height };
-                let rest = A::FULL + A::FULL - height;
-                let rest = if rest < A::NO_WEIGHT { A::NO_WEIGHT } else { rest };
-                rgb(bottom, top, |b, t| A::mean(A::gather(A::dim(b, rest), A::dim(t, height)), 2))
+            Self::Gradient { up, middle, slope } => {
+                let height = A::dot(direction, up);
+                rgb(middle, slope, |m, s| A::ramp(m, s, height))
             }
         }
     }
@@ -76,7 +73,8 @@ for_each_arithmetic! {
             ok_or_panic!(Self::try_gradient(up, bottom, top))
         }
 
-        /// A gradient along `up`.
+        /// A gradient along `up`, from `bottom` where the direction's component along it is −1 to
+        /// `top` where it is 1.
         ///
         /// # Errors
         /// A null vertical; a radiance that is negative, no number or above 1024.
@@ -85,11 +83,15 @@ for_each_arithmetic! {
             bottom: Rgb<f64>,
             top: Rgb<f64>,
         ) -> Result<Self, ShapeError> {
-            Ok(Self::Gradient {
-                up: unit_vector!(make, up),
-                bottom: radiances!(bottom),
-                top: radiances!(top),
-            })
+            let (low, high) = (radiances!(bottom), radiances!(top));
+            let mut middle = low;
+            let mut slope = low;
+            let mut i = 0;
+            while i < 3 {
+                (middle[i], slope[i]) = make::middle_and_slope(low[i], high[i]);
+                i += 1;
+            }
+            Ok(Self::Gradient { up: unit_vector!(make, up), middle, slope })
         }
     }
 

@@ -37,7 +37,7 @@ pub use camera::{Camera, Row, View};
 pub use error::SceneError;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
-pub(crate) use shapes::{for_each_other, with_shape};
+pub(crate) use shapes::with_shape;
 
 pub(crate) use light::Incident;
 

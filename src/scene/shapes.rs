@@ -61,43 +61,6 @@ macro_rules! with_shape {
 }
 pub(crate) use with_shape;
 
-/// `$body` for each bounded shape but spheres, `$id` counting on from the first one's number.
-macro_rules! for_each_other {
-    ($parts:expr, $id:ident, $shape:ident => $body:expr) => {{
-        let parts = $parts;
-        for $shape in parts.triangles {
-            $body;
-            $id += 1;
-        }
-        for $shape in parts.smooth_triangles {
-            $body;
-            $id += 1;
-        }
-        for polygon in parts.polygons {
-            let $shape = &polygon.view(parts.edges);
-            $body;
-            $id += 1;
-        }
-        for $shape in parts.cuboids {
-            $body;
-            $id += 1;
-        }
-        for $shape in parts.discs {
-            $body;
-            $id += 1;
-        }
-        for $shape in parts.cylinders {
-            $body;
-            $id += 1;
-        }
-        for $shape in parts.cones {
-            $body;
-            $id += 1;
-        }
-    }};
-}
-pub(crate) use for_each_other;
-
 impl<A: Arithmetic> Parts<'_, A> {
     /// How many shapes there are besides planes: those that the tree is over.
     #[inline(always)]

@@ -1,9 +1,10 @@
 //! The nearest hit along a ray.
 
+use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Octree, Visitor, WalkStack};
-use crate::scene::{Parts, Scene, for_each_other, with_shape};
-use crate::shape::{Ray, Shape};
+use crate::scene::{Parts, Scene};
+use crate::shape::{Meeting, Ray, Shape};
 use crate::tally::Tally;
 
 /// The nearest hit along a ray.
@@ -27,35 +28,32 @@ struct Nearest<'r, 'a, A: Arithmetic, T> {
 }
 
 impl<A: Arithmetic, T: Tally> Nearest<'_, '_, A, T> {
+    /// Keeps a meeting that is nearer than the best so far, or as near with a lower number.
     #[inline(always)]
-    fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) {
-        let leaving = self.ray.leaving;
-        if id == leaving.shape && (S::FLAT || !leaving.inwards) {
-            return;
-        }
-        self.tally.test();
-        let inwards = id == leaving.shape;
-        let limit = self.best.distance;
-        if let Some(meeting) = shape.nearest(self.ray, &self.coarse, inwards, limit)
-            && (meeting.distance < limit || id < self.best.shape)
+    fn keep(&mut self, meeting: Option<Meeting<A>>, id: u32) {
+        if let Some(Meeting { distance, detail }) = meeting
+            && (distance < self.best.distance || id < self.best.shape)
         {
-            self.best = Hit { distance: meeting.distance, detail: meeting.detail, shape: id };
+            self.best = Hit { distance, detail, shape: id };
         }
     }
-}
 
-// Out of line, so that a scene of some spheres gets the registers for its short loop.
-impl<A: Arithmetic, T: Tally> Nearest<'_, '_, A, T> {
+    #[inline(always)]
+    fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) {
+        self.tally.test();
+        self.keep(meet(shape, id, self.ray, &self.coarse, self.best.distance), id);
+    }
+
+    #[inline(always)]
+    fn test_any(&mut self, id: u32) {
+        self.tally.test();
+        self.keep(meet_any(self.parts, id, self.ray, &self.coarse, self.best.distance), id);
+    }
+
     #[inline(never)]
     fn walk(&mut self, tree: &Octree<'_, A>, walk: &mut WalkStack<A>) {
         let ray = self.ray;
         tree.walk(&ray.origin, &ray.direction, walk, self);
-    }
-
-    /// Tests all bounded shapes but spheres, the first of which has the number `id`.
-    #[inline(never)]
-    fn others(&mut self, mut id: u32) {
-        for_each_other!(self.parts, id, shape => self.test(shape, id));
     }
 }
 
@@ -67,8 +65,10 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Nearest<'_, '_, A, T> {
 
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        let parts = self.parts;
-        with_shape!(parts, id, shape => self.test(shape, id), {});
+        match self.parts.spheres.get(id as usize) {
+            Some(sphere) => self.test(sphere, id),
+            None => self.test_any(id),
+        }
         false
     }
 
@@ -105,8 +105,9 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally>(
             search.test(sphere, id);
             id += 1;
         }
-        if id != scene.bounded {
-            search.others(id);
+        while id < scene.bounded {
+            search.test_any(id);
+            id += 1;
         }
     }
     if search.best.distance < limit { Some(search.best) } else { None }

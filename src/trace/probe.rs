@@ -1,9 +1,9 @@
 //! What a ray meets first, for tools that show more than radiance.
 
+use super::meet::surface_at;
 use super::{Hit, Tracer, Work};
 use crate::math::Arithmetic;
-use crate::scene::with_shape;
-use crate::shape::{Meeting, Ray, Shape, Surface};
+use crate::shape::{Meeting, Ray, Surface};
 use crate::tally::Tally;
 
 impl<A: Arithmetic> Tracer<'_, A> {
@@ -17,6 +17,6 @@ impl<A: Arithmetic> Tracer<'_, A> {
         let hit = self.nearest(ray, work, tally)?;
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        with_shape!(&self.scene.parts, hit.shape, shape => Some((hit, shape.surface(ray, &meeting, &mut p))), None)
+        surface_at(self.scene, hit.shape, ray, &meeting, &mut p).map(|(surface, _)| (hit, surface))
     }
 }

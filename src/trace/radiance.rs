@@ -5,12 +5,13 @@
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
 use super::direct::{Shading, direct};
+use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::WalkStack;
-use crate::scene::{Scene, with_shape};
-use crate::shape::{Leaving, Meeting, Ray, Shape};
+use crate::scene::Scene;
+use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
 /// A ray with its place in the tree.
@@ -62,14 +63,14 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
     /// made for is cut.
-    #[inline(always)]
+    #[inline(never)]
     pub fn radiance<T: Tally, const MAX_DEPTH: usize>(
         &self,
-        ray: &Ray<A>,
+        ray: Ray<A>,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        let mut path = Path { ray: *ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
+        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
         loop {
@@ -123,9 +124,10 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let (surface, id) = with_shape!(&scene.parts, hit.shape, shape => {
-            (shape.surface(&path.ray, &meeting, &mut p), shape.material())
-        }, return (false, None));
+        let ray = &path.ray;
+        let Some((surface, id)) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
+            return (false, None);
+        };
         let Some(material) = scene.material_at(id, &p) else { return (false, None) };
 
         let ambient = &scene.parts.ambient.0;

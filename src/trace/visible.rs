@@ -1,10 +1,11 @@
 //! What a shadow ray finds between a point and a light.
 
+use super::meet::{meet, meet_any, surface_at};
 use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Octree, Visitor, WalkStack};
-use crate::scene::{Parts, Scene, Shadow, for_each_other, with_shape};
-use crate::shape::{Leaving, Meeting, Ray, Shape};
+use crate::scene::{Parts, Scene, Shadow};
+use crate::shape::{Leaving, Meeting, Plane, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
@@ -21,36 +22,43 @@ struct Occluder<'r, 'a, A: Arithmetic, T> {
 }
 
 impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
-    /// Tests a shape, and says whether the search is over.
+    /// Notes whether a shape blocks the ray, and says whether the search is over.
     #[inline(always)]
-    fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) -> bool {
-        let leaving = self.ray.leaving;
-        if id == leaving.shape && (S::FLAT || !leaving.inwards) {
-            return false;
-        }
-        self.tally.test();
-        let blocked = shape.occludes(self.ray, &self.coarse, id == leaving.shape, self.limit);
+    fn note(&mut self, blocked: bool, id: u32) -> bool {
         if blocked {
             self.found = Some(id);
         }
         blocked
     }
-}
 
-// Out of line, so that a scene of some spheres gets the registers for its short loop.
-impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
+    #[inline(always)]
+    fn sphere(&mut self, sphere: &Sphere<A>, id: u32) -> bool {
+        self.tally.test();
+        let (ray, leaving) = (self.ray, self.ray.leaving);
+        let left = id == leaving.shape;
+        let blocked =
+            (leaving.inwards || !left) && sphere.occludes(ray, &self.coarse, left, self.limit);
+        self.note(blocked, id)
+    }
+
+    #[inline(always)]
+    fn plane(&mut self, plane: &Plane<A>, id: u32) -> bool {
+        self.tally.test();
+        let meeting = meet(plane, id, self.ray, &self.coarse, self.limit);
+        self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
+    }
+
+    #[inline(always)]
+    fn any(&mut self, id: u32) -> bool {
+        self.tally.test();
+        let meeting = meet_any(self.parts, id, self.ray, &self.coarse, self.limit);
+        self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
+    }
+
     #[inline(never)]
     fn walk(&mut self, tree: &Octree<'_, A>, walk: &mut WalkStack<A>) {
         let ray = self.ray;
         tree.walk(&ray.origin, &ray.direction, walk, self);
-    }
-
-    /// Tests all bounded shapes but spheres, the first of which has the number `id`.
-    #[inline(never)]
-    fn others(&mut self, mut id: u32) {
-        for_each_other!(self.parts, id, shape => if self.test(shape, id) {
-            return;
-        });
     }
 }
 
@@ -62,8 +70,10 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Occluder<'_, '_, A, T> {
 
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        let parts = self.parts;
-        with_shape!(parts, id, shape => self.test(shape, id), false)
+        match self.parts.spheres.get(id as usize) {
+            Some(sphere) => self.sphere(sphere, id),
+            None => self.any(id),
+        }
     }
 
     #[inline(always)]
@@ -89,13 +99,16 @@ fn occluder<A: Arithmetic, T: Tally>(
         None => {
             let mut id = 0;
             for sphere in parts.spheres {
-                if search.test(sphere, id) {
+                if search.sphere(sphere, id) {
                     return search.found;
                 }
                 id += 1;
             }
-            if id != scene.bounded {
-                search.others(id);
+            while id < scene.bounded {
+                if search.any(id) {
+                    return search.found;
+                }
+                id += 1;
             }
         }
     }
@@ -104,7 +117,7 @@ fn occluder<A: Arithmetic, T: Tally>(
     }
     let mut id = scene.bounded;
     for plane in parts.planes {
-        if search.test(plane, id) {
+        if search.plane(plane, id) {
             return search.found;
         }
         id += 1;
@@ -148,9 +161,7 @@ fn filtered<A: Arithmetic, T: Tally>(
         let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let (surface, id) = with_shape!(&scene.parts, hit.shape, shape => {
-            (shape.surface(&ray, &meeting, &mut p), shape.material())
-        }, return None);
+        let (surface, id) = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
         let material = scene.material_at(id, &p)?;
         match material.shadow {
             Shadow::None => {}

@@ -191,7 +191,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let tracer = any(Tracer::new(scene, any(5)));
     let mut tally = tally;
     any(tracer.nearest(&ray, &mut work, &mut tally));
-    any(tracer.radiance(&ray, &mut work, &mut tally));
+    any(tracer.radiance(ray, &mut work, &mut tally));
     let picture = Picture::<A, eg::Gray8, 5>::new(scene, camera, settings, &mut work, &mut []);
     any(picture.ok()?.size());
     let _ = any(Renderer::new(scene, camera, settings, &mut work, &mut []));

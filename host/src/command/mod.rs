@@ -66,20 +66,25 @@ enum Arith {
     F64,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum SamplingName {
-    /// One ray through each pixel's centre
-    Center,
-    /// One through each pixel corner, four averaged to a pixel
-    Corners,
-}
-
-impl From<SamplingName> for Sampling {
-    fn from(name: SamplingName) -> Self {
-        match name {
-            SamplingName::Center => Self::Center,
-            SamplingName::Corners => Self::Corners,
+/// Reads `center`, `corners`, `grid:N` and `jittered:N[:SEED]`.
+fn sampling(text: &str) -> Result<Sampling, String> {
+    let mut parts = text.split(':');
+    let name = parts.next().unwrap_or_default();
+    let numbers: Vec<&str> = parts.collect();
+    let side = |text: &str| match text.parse() {
+        Ok(side @ 1..=8) => Ok(side),
+        _ => Err(format!("{text:?} isn't a number of cells each way, 1 to 8")),
+    };
+    match (name, numbers.as_slice()) {
+        ("center", []) => Ok(Sampling::Center),
+        ("corners", []) => Ok(Sampling::Corners),
+        ("grid", [n]) => Ok(Sampling::Grid { side: side(n)? }),
+        ("jittered", [n]) => Ok(Sampling::Jittered { side: side(n)?, seed: 0 }),
+        ("jittered", [n, seed]) => {
+            let wrong = |_| format!("{seed:?} isn't a seed, 0 to 65535");
+            Ok(Sampling::Jittered { side: side(n)?, seed: seed.parse().map_err(wrong)? })
         }
+        _ => Err("it is center, corners, grid:N or jittered:N[:SEED], N from 1 to 8".into()),
     }
 }
 

@@ -13,7 +13,7 @@ use whitted_host::read;
 use whitted_host::render::{Rendered, Sampling, Settings, render};
 use whitted_host::stats::{Seconds, Stats};
 
-use super::{Arith, Failure, SamplingName, ShowName, With, print, progress, warn};
+use super::{Arith, Failure, ShowName, With, print, progress, warn};
 
 /// How large a picture is if neither the command nor the scene says.
 pub(super) const SIZE: Size = Size { width: 320, height: 240 };
@@ -29,9 +29,10 @@ pub(super) struct Options {
     out: Option<PathBuf>,
     #[command(flatten)]
     with: With,
-    /// Where in a pixel rays go
-    #[arg(long, value_enum, default_value = "center")]
-    sampling: SamplingName,
+    /// Where in a pixel rays go: center (one ray), corners (one through each pixel corner, four
+    /// averaged), grid:N (N×N rays, 1 to 8), jittered:N[:SEED] (moved at random)
+    #[arg(long, value_name = "HOW", default_value = "center", value_parser = super::sampling)]
+    sampling: Sampling,
     /// Write ray counts and times to a file, as JSON
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
@@ -60,7 +61,7 @@ pub(super) fn showcase(quiet: bool) -> Result<(), Failure> {
         scene: file.clone(),
         out: None,
         with: With { size: None, arith: Arith::F64, depth: None },
-        sampling: SamplingName::Center,
+        sampling: Sampling::Center,
         stats: None,
         show: None,
     };
@@ -78,7 +79,7 @@ fn paint(
     let settings = Settings {
         size: options.with.size.or(document.size).unwrap_or(SIZE),
         depth: options.with.depth.unwrap_or(document.rules.depth),
-        sampling: Sampling::from(options.sampling),
+        sampling: options.sampling,
         show: options.show.map(Into::into),
     };
     let (rendered, arithmetic, build) = match options.with.arith {

@@ -41,6 +41,12 @@ pub(crate) const fn radiance(x: f64) -> Option<I16F16> {
     Some(I16F16::from_bits(round(x * 65536.0) as i32))
 }
 
+/// A ramp's middle and slope from its ends.
+pub(crate) const fn middle_and_slope(low: I16F16, high: I16F16) -> (I16F16, I16F16) {
+    let (low, high) = (low.to_bits(), high.to_bits());
+    (I16F16::from_bits((low + high) >> 1), I16F16::from_bits((high - low) >> 1))
+}
+
 /// From 2⁻¹² (below it a sphere is a few steps across) to 500 (above it the coarse radius would
 /// not fit sixteen bits).
 pub(crate) const fn radius(r: f64) -> Option<FixedRadius> {

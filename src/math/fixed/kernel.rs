@@ -1,5 +1,8 @@
 //! Products that are wider than a word, from products that are not.
 
+use super::Unit;
+use ::fixed::types::I16F16;
+
 /// `t·u / 2¹⁷`, exactly the 64-bit result, for |t·u| < 2⁴⁴ and |u| ≤ 2¹⁸.
 #[inline(always)]
 pub(super) fn length_times_unit(t: i32, u: i32) -> i32 {
@@ -32,8 +35,8 @@ pub(super) fn project(v: &[i32; 3], d: &[i32; 3]) -> i32 {
 
 #[inline(always)]
 fn project_wide(v: &[i32; 3], d: &[i32; 3]) -> i32 {
-    let p = |i: usize| i64::from(v[i]) * i64::from(d[i]);
-    ((p(0) + p(1) + p(2)) >> 17) as i32
+    let p = |i: usize| i64::from(v[i]).wrapping_mul(i64::from(d[i]));
+    (p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 17) as i32
 }
 
 #[inline(always)]
@@ -69,6 +72,24 @@ pub(super) fn wide_shr(x: u32, n: i32, limit: u32) -> u32 {
             x << (up & 31)
         }
     }
+}
+
+/// The bits of three lengths.
+#[inline(always)]
+pub(super) fn lengths(v: &[I16F16; 3]) -> [i32; 3] {
+    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]
+}
+
+/// The bits of three components.
+#[inline(always)]
+pub(super) fn units(v: &[Unit; 3]) -> [i32; 3] {
+    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]
+}
+
+/// |x|, or one less for a negative x: which bits it needs.
+#[inline(always)]
+pub(super) fn magnitude(x: i32) -> u32 {
+    (x ^ (x >> 31)) as u32
 }
 
 #[cfg(test)]

@@ -9,14 +9,19 @@
 //! units, and below 17 far edges move by a pixel (44.8 dB at 15 bits, 47.6 at 17 on the limit
 //! scene).
 
+mod cone;
 pub(crate) mod constructors;
+mod direction;
+mod flat;
 mod kernel;
+mod light;
+mod round;
 
-use super::root::{reciprocal_q28, reciprocal_root_q29, sqrt_u32};
+use super::root::{reciprocal_q28, sqrt_u32};
 use super::{Arithmetic, log, root};
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
-use kernel::{length_times_unit, project, shift, wide_shr};
+use kernel::{length_times_unit, lengths, magnitude, project, shift, units};
 
 type Unit = FixedI32<U17>;
 type Weight = FixedI32<U14>;
@@ -119,131 +124,6 @@ const FAR: i32 = 1 << 26;
 /// 1024 in Q16: no single contribution is larger.
 const BRIGHTEST: u32 = 1 << 26;
 
-#[inline(always)]
-fn lengths(v: &[I16F16; 3]) -> [i32; 3] {
-    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]
-}
-
-#[inline(always)]
-fn units(v: &[Unit; 3]) -> [i32; 3] {
-    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]
-}
-
-#[inline(always)]
-fn magnitude(x: i32) -> u32 {
-    (x ^ (x >> 31)) as u32
-}
-
-/// Three integers shifted so that the largest magnitude is in 2²⁹ to 2³⁰, and by how much.
-#[inline(always)]
-fn align(v: &[i32; 3]) -> ([i32; 3], i32) {
-    let (_, z) = root::normalize(magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2]) | 1);
-    let up = z as i32 - 2;
-    if up >= 0 {
-        let up = up & 31;
-        ([v[0] << up, v[1] << up, v[2] << up], up)
-    } else {
-        ([v[0] >> 2, v[1] >> 2, v[2] >> 2], -2)
-    }
-}
-
-/// 1/√s for a sum of squares s in 2²⁸ to 2³²: Y in Q29 from 1 to 2 with 1/√s = Y·2^(half − 16),
-/// half, and s as a fraction, `s·2^(2·half − 32)` in Q32.
-#[inline(always)]
-fn inverse_root(s: u32) -> (u32, u32, u32) {
-    let (m, half) = if s < 1 << 30 { (s << 2, 1) } else { (s, 0) };
-    (reciprocal_root_q29(m), half, m)
-}
-
-/// The unit vector along three integers, to 17 bits, and their length: `root` in Q16 from ½ to 1,
-/// of which `|v|` is `root·2^(1 − half − up)` in 2⁻¹⁶ of what the integers count.
-#[inline(always)]
-fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
-    // Fifteen bits a component, so that three squares fit a word, and five more for the
-    // first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
-    let (x, up) = align(v);
-    let (mut square, mut correction) = (0u32, 0i32);
-    for x in &x {
-        let (high, low) = (x >> 15, x >> 10 & 31);
-        square = square.wrapping_add(high.wrapping_mul(high) as u32);
-        correction = correction.wrapping_add(high.wrapping_mul(low));
-    }
-    let (y_q29, half, m) = inverse_root(square.wrapping_add((correction >> 4) as u32));
-    // x·Y·2^(half − 14) in Q17, as (x/2¹²)·(Y·2^half in Q15)/2¹⁷
-    let y = (y_q29 >> (14 - half)) as i32;
-    let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
-    let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
-    ([unit(x[0]), unit(x[1]), unit(x[2])], length)
-}
-
-/// A length in steps of 2^(s − 16), rounded.
-#[inline(always)]
-fn steps(x: I16F16, s: u8) -> i32 {
-    (x.to_bits() >> s).wrapping_add(x.to_bits() >> (s.saturating_sub(1)) & (s != 0) as i32)
-}
-
-/// By how many steps of 2^(s − 16) a triangle or polygon is larger than it is, so that meshes
-/// have no cracks. A hit is off by four steps of a length for the products, the plane by a quarter
-/// of a step at the corners, all that over the slope; two steps for the forms' coefficients, one
-/// for the rounding of both coordinates. Never more than 1024: a thirtieth of the shape; so at a
-/// glance there can be cracks, from a slope of about 1/64 (small shapes, tens of their size away)
-/// down.
-#[inline(always)]
-fn slack_steps(slope: Unit, s: u8) -> i32 {
-    let off = (4 >> s) + 1;
-    // 1/slope ≤ 2^(z − 14)
-    let (_, z) = root::normalize(slope.to_bits() as u32 | 1);
-    let up = if z > 24 { 10 } else { z.saturating_sub(14) };
-    let off = off << up;
-    3 + if off > 1024 { 1024 } else { off }
-}
-
-/// √x to sixteen bits.
-fn root_of_wide(x: u64) -> i64 {
-    let z = x.leading_zeros() & 62;
-    let down = 32u32.saturating_sub(z);
-    // `down` is even, since z is
-    i64::from(sqrt_u32((x >> down) as u32)) << (down >> 1)
-}
-
-/// `a/b` as a unit, clipped to ±2; 2 with the sign of a for b = 0.
-fn quotient(a: i64, b: i64) -> Unit {
-    let negative = (a < 0) != (b < 0);
-    let (a, b) = (a.unsigned_abs(), b.unsigned_abs());
-    let q = if a >> 1 >= b {
-        1 << 18
-    } else {
-        // a < 2b, so both can be moved until b has 31 bits and a 32.
-        let z = b.leading_zeros();
-        let (a, b) =
-            if z >= 32 { (a << (z - 32), b << (z - 32)) } else { (a >> (32 - z), b >> (32 - z)) };
-        // a/2³²·2²⁸/b of Q32
-        let y_q28 = u64::from(reciprocal_q28(b as u32));
-        (a.wrapping_mul(y_q28) >> 43) as i32
-    };
-    Unit::from_bits(if negative { -q } else { q })
-}
-
-impl FixedRadius {
-    #[inline(always)]
-    fn bits(&self) -> i32 {
-        (self.mantissa as i32) << (self.shift & 31)
-    }
-
-    #[inline(always)]
-    fn reciprocal(&self) -> i32 {
-        self.reciprocal as i32 | 0x1_0000
-    }
-
-    /// `a/r` in Q17: a·2³²/(m·2^e) with the operand brought to where the product keeps it.
-    #[inline(always)]
-    fn divide(&self, a: i32) -> i32 {
-        // length_times_unit divides by 2¹⁷, the reciprocal carries 2³², the result wants 2¹⁷
-        let up = 2 + self.missing as i32 - self.shift as i32;
-        length_times_unit(shift(a, up), self.reciprocal())
-    }
-}
-
 impl Arithmetic for Fixed {
     type Length = I16F16;
     type Unit = Unit;
@@ -320,31 +200,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn refract(d: &[Unit; 3], n: &[Unit; 3], cos_i: Unit, eta: &FixedEta) -> Option<[Unit; 3]> {
-        let c_q15 = cos_i.to_bits() >> 2;
-        let sin2_q30 = (1u32 << 30).saturating_sub(c_q15.wrapping_mul(c_q15) as u32);
-        // sin²·η² with the square's sixteen bits: the product lies in Q(30 − exponent)
-        let square = eta.square as u32;
-        let product = ((sin2_q30 >> 15).wrapping_mul(square) >> 1)
-            .wrapping_add((sin2_q30 & 0x7fff).wrapping_mul(square) >> 16);
-        let e = eta.exponent as i32;
-        if e > 0 && product >> (30 - e) != 0 {
-            return None;
-        }
-        let sin2_t = shift(product as i32, e);
-        let cos2_t = (1 << 30) - sin2_t;
-        if cos2_t <= 0 {
-            return None;
-        }
-        // one step less than the square, so that 1 doesn't fall off the top of Q32
-        let cos_t_q17 = (sqrt_u32((cos2_t as u32 - 1) << 2) << 1) as i32;
-        let eta_q16 = eta.eta_q16 as i32;
-        let times_eta = |u: i32| length_times_unit(u << 1, eta_q16);
-        let along_n = times_eta(cos_i.to_bits()).wrapping_sub(cos_t_q17);
-        let f = |d: Unit, n: Unit| {
-            let tangent = times_eta(d.to_bits());
-            Unit::from_bits(tangent.wrapping_add(length_times_unit(along_n, n.to_bits())))
-        };
-        Some([f(d[0], n[0]), f(d[1], n[1]), f(d[2], n[2])])
+        direction::refract(d, n, cos_i, eta)
     }
 
     #[inline(always)]
@@ -370,39 +226,18 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn normalize(v: &[I16F16; 3]) -> ([Unit; 3], I16F16, FixedInverse) {
-        // Fifteen bits a component do for the way to a light; rounding them before they are
-        // squared keeps the result's length exact.
-        let (x, up) = align(&lengths(v));
-        let short = |x: i32| x.wrapping_add(1 << 14) >> 15;
-        let h = [short(x[0]), short(x[1]), short(x[2])];
-        let square = |h: i32| h.wrapping_mul(h) as u32;
-        let sum = square(h[0]).wrapping_add(square(h[1])).wrapping_add(square(h[2]));
-        let (y_q29, half, m) = inverse_root(sum);
-        // h·Y·2^(half + 1) in Q17: |h|·Y is at most 2¹⁶, so the product fits at Q14
-        let y_q14 = (y_q29.wrapping_add(1 << 14) >> 15) as i32;
-        let unit = |h: i32| Unit::from_bits(h.wrapping_mul(y_q14) >> (13 - half));
-        let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
-        let inverse = FixedInverse { mantissa_q15: y_q29 >> 14, exponent: half as i32 + up - 15 };
-        ([unit(h[0]), unit(h[1]), unit(h[2])], I16F16::from_bits(length), inverse)
+        direction::normalize(v)
     }
 
     #[inline(always)]
     fn renormalize(v: &[Unit; 3]) -> ([Unit; 3], Unit) {
-        let (unit, length) = unit_along(&units(v));
+        let (unit, length) = direction::unit_along(&units(v));
         (unit, Unit::from_bits(length))
     }
 
     #[inline(always)]
     fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
-        // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
-        let e = (1 << 17) - project(&units(n), &units(n));
-        let half = e >> 1;
-        let off = length_times_unit(r.bits(), half);
-        for (n, p) in n.iter_mut().zip(p) {
-            let unit = n.to_bits();
-            *p = I16F16::from_bits(p.to_bits().wrapping_add(length_times_unit(off, unit)));
-            *n = Unit::from_bits(unit.wrapping_add(unit.wrapping_mul(half) >> 17));
-        }
+        round::settle(r, n, p)
     }
 
     #[inline(always)]
@@ -423,42 +258,12 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn leg2(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> Option<u32> {
-        let bound = r.bits();
-        let (t, s) = (t.to_bits(), r.shift & 31);
-        let m = r.mantissa as u32;
-        let mut rest = m.wrapping_mul(m);
-        let mut correction = 0i32;
-        for i in 0..3 {
-            let f = c[i].to_bits().wrapping_sub(length_times_unit(t, d[i].to_bits()));
-            if f.wrapping_add(bound) as u32 >= (bound as u32) << 1 {
-                return None;
-            }
-            // (2ˢh + l)² ≈ 2²ˢ(h² + 2hl/2ˢ)
-            let high = f >> s;
-            correction = correction.wrapping_add(high.wrapping_mul(f.wrapping_sub(high << s)));
-            let square = high.wrapping_mul(high) as u32;
-            if square >= rest {
-                return None;
-            }
-            rest -= square;
-        }
-        // What the shift drops is positive: h is a floor, so hl may have either sign.
-        let correction = correction >> s << 1;
-        let rest = (rest as i64 - i64::from(correction)) as i64;
-        if rest <= 0 { None } else { Some(rest as u32) }
+        round::leg2(r, c, t, d)
     }
 
     #[inline(always)]
     fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> I16F16 {
-        // |c − t·d| is below r, sixteen bits, and |d| fifteen: the sum of products fits
-        let s = r.shift & 31;
-        let mut sum = 0i32;
-        for i in 0..3 {
-            let d = d[i].to_bits();
-            let f = c[i].to_bits().wrapping_sub(length_times_unit(t.to_bits(), d));
-            sum = sum.wrapping_add((f >> s).wrapping_mul(d >> 2));
-        }
-        I16F16::from_bits((sum >> 15) << s)
+        round::ahead(r, c, t, d)
     }
 
     #[inline(always)]
@@ -493,28 +298,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn may_hit(ray: &FixedCoarse, center: &[I16F16; 3], r: &FixedRadius, limit: I16F16) -> bool {
-        let c = |i: usize| (center[i].to_bits() >> COARSE_SHIFT).wrapping_sub(ray.o[i]);
-        let c = [c(0), c(1), c(2)];
-        let p = |i: usize| c[i].wrapping_mul(ray.d[i]);
-        let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 12;
-        // Rounding moves each component of the direction by 2⁻¹³: a sphere that is hit, at most
-        // t + r away, by less than 1.4·(t + r)/2¹², of which the radius has its part.
-        let r = (r.coarse as i32).wrapping_add(t >> 11);
-        let reach = (r as u32) << 1;
-        let last = (limit.to_bits() >> COARSE_SHIFT) as u32;
-        if t.wrapping_add(r) as u32 > last.wrapping_add(reach) {
-            return false;
-        }
-        let mut square = 0u32;
-        for i in 0..3 {
-            let f = c[i].wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
-            if f.wrapping_add(r) as u32 > reach {
-                return false;
-            }
-            square = square.wrapping_add(f.wrapping_mul(f) as u32);
-        }
-        // beyond 2¹⁵ steps (256 units) the squares don't fit, and the three bounds must do
-        r >= 1 << 15 || square <= r.wrapping_mul(r) as u32
+        round::may_hit(ray, center, r, limit)
     }
 
     #[inline(always)]
@@ -525,52 +309,12 @@ impl Arithmetic for Fixed {
         _: I16F16,
         slope: Unit,
     ) -> Option<(Weight, Weight)> {
-        let s = form.shift & 31;
-        let (x, y) = (steps(x, s), steps(y, s));
-        if x as i16 as i32 != x || y as i16 as i32 != y {
-            return None;
-        }
-        // weighed by the largest coefficients (2¹⁴ and less)
-        let slack = slack_steps(slope, s) << 14;
-        let value = |form: &[i16; 2]| {
-            (form[0] as i32).wrapping_mul(x).wrapping_add((form[1] as i32).wrapping_mul(y))
-        };
-        let b = value(&form.second);
-        if b < -slack {
-            return None;
-        }
-        let c = value(&form.third);
-        if c < -slack {
-            return None;
-        }
-        let (down_b, down_c) = (form.second_down & 31, form.third_down & 31);
-        let (b, c) = (b >> down_b, c >> down_c);
-        if b.wrapping_add(c) > 16384 + (slack >> down_b) + (slack >> down_c) {
-            return None;
-        }
-        Some((Weight::from_bits(b), Weight::from_bits(c)))
+        flat::barycentric(form, x, y, slope)
     }
 
     #[inline(always)]
     fn weights(form: &FixedBarycentric, x: I16F16, y: I16F16) -> (Weight, Weight) {
-        let s = form.shift & 31;
-        let short = |x: I16F16| steps(x, s).clamp(-32768, 32767);
-        let (x, y) = (short(x), short(y));
-        let value = |form: &[i16; 2], down: u8, most: i32| {
-            let sum =
-                (form[0] as i32).wrapping_mul(x).wrapping_add((form[1] as i32).wrapping_mul(y));
-            let w = sum >> (down & 31);
-            if w < 0 {
-                0
-            } else if w > most {
-                most
-            } else {
-                w
-            }
-        };
-        let b = value(&form.second, form.second_down, 16384);
-        let c = value(&form.third, form.third_down, 16384 - b);
-        (Weight::from_bits(b), Weight::from_bits(c))
+        flat::weights(form, x, y)
     }
 
     #[inline(always)]
@@ -587,22 +331,12 @@ impl Arithmetic for Fixed {
         _: I16F16,
         slope: Unit,
     ) -> Option<FixedSpot> {
-        let s = outline.shift & 31;
-        let (x, y) = (steps(x, s), steps(y, s));
-        let slack = slack_steps(slope, s);
-        if magnitude(x) as i32 > outline.half[0] as i32 + slack
-            || magnitude(y) as i32 > outline.half[1] as i32 + slack
-        {
-            return None;
-        }
-        Some(FixedSpot { x, y, slack_q14: slack << 14 })
+        flat::spot(outline, x, y, slope)
     }
 
     #[inline(always)]
     fn beyond(edge: &FixedEdge, spot: &FixedSpot) -> bool {
-        let p = (edge.normal[0] as i32).wrapping_mul(spot.x);
-        let q = (edge.normal[1] as i32).wrapping_mul(spot.y);
-        p.wrapping_add(q).wrapping_add((edge.offset as i32) << 14) < -spot.slack_q14
+        flat::beyond(edge, spot)
     }
 
     /// In Q28, from Q17: a cone seldom fills the picture, and its squares cancel. So the
@@ -614,48 +348,12 @@ impl Arithmetic for Fixed {
         sin_cos: [Unit; 2],
         waist: Unit,
     ) -> Option<[Unit; 2]> {
-        let wide = |x: Unit| i64::from(x.to_bits()) << 11;
-        let times = |x: i64, y: i64| x.wrapping_mul(y) >> 28;
-        let dot = |x: &[i64; 3], y: &[i64; 3]| {
-            times(x[0], y[0]).wrapping_add(times(x[1], y[1])).wrapping_add(times(x[2], y[2]))
-        };
-        let (w, d, axis) = (w.map(wide), d.map(wide), axis.map(wide));
-        let (sin, cos, waist) = (wide(sin_cos[0]), wide(sin_cos[1]), wide(waist));
-        let (s, da) = (dot(&w, &axis), dot(&d, &axis));
-        let across = |v: &[i64; 3], s: i64| {
-            let f = |v: i64, a: i64| v.wrapping_sub(times(s, a));
-            [f(v[0], axis[0]), f(v[1], axis[1]), f(v[2], axis[2])]
-        };
-        let (wp, dp) = (across(&w, s), across(&d, da));
-        let (rs, rd) = (waist.wrapping_add(times(sin, s)), times(sin, da));
-        let cos2 = times(cos, cos);
-        let a = times(cos2, dot(&dp, &dp)).wrapping_sub(times(rd, rd));
-        let b = times(cos2, dot(&wp, &dp)).wrapping_sub(times(rs, rd));
-        let c = times(cos2, dot(&wp, &wp)).wrapping_sub(times(rs, rs));
-        let square = b.wrapping_mul(b).wrapping_sub(a.wrapping_mul(c));
-        if square < 0 {
-            return None;
-        }
-        let h = root_of_wide(square as u64);
-        Some(if b >= 0 {
-            let q = b.wrapping_add(h).wrapping_neg();
-            [quotient(q, a), quotient(c, q)]
-        } else {
-            let q = h.wrapping_sub(b);
-            [quotient(c, q), quotient(q, a)]
-        })
+        cone::cone(w, d, axis, sin_cos, waist)
     }
 
     #[inline(always)]
     fn blend(n: &[[Unit; 3]; 3], b: Weight, c: Weight) -> [Unit; 3] {
-        let (b, c) = (b.to_bits(), c.to_bits());
-        let a = 16384 - b - c;
-        let f = |i: usize| {
-            let p = |u: Unit, w: i32| (u.to_bits() >> 2).wrapping_mul(w);
-            let sum = p(n[0][i], a).wrapping_add(p(n[1][i], b)).wrapping_add(p(n[2][i], c));
-            Unit::from_bits(sum >> 12)
-        };
-        Self::renormalize(&[f(0), f(1), f(2)]).0
+        flat::blend(n, b, c)
     }
 
     #[inline(always)]
@@ -688,6 +386,13 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn ramp(middle: I16F16, slope: I16F16, u: Unit) -> I16F16 {
+        // Rounding can leave u a little beyond ±1.
+        let sum = middle.to_bits().wrapping_add(length_times_unit(slope.to_bits(), u.to_bits()));
+        I16F16::from_bits(if sum < 0 { 0 } else { sum })
+    }
+
+    #[inline(always)]
     fn gather(a: I16F16, b: I16F16) -> I16F16 {
         a.saturating_add(b)
     }
@@ -709,18 +414,12 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16F16 {
-        let y_q14 = inverse.mantissa_q15 >> 1;
-        let square_q15 = y_q14.wrapping_mul(y_q14) >> 13;
-        let p_q30 = square_q15.wrapping_mul(intensity.mantissa_q15 as u32);
-        let exponent = i32::from(intensity.exponent) + 2 * inverse.exponent - 14;
-        I16F16::from_bits(wide_shr(p_q30, -exponent, BRIGHTEST) as i32)
+        light::falloff(intensity, inverse)
     }
 
     #[inline(always)]
     fn constant(intensity: &FixedIntensity) -> I16F16 {
-        let p =
-            wide_shr(intensity.mantissa_q15 as u32, -i32::from(intensity.exponent) - 1, BRIGHTEST);
-        I16F16::from_bits(p as i32)
+        light::constant(intensity)
     }
 
     #[inline(always)]
@@ -748,7 +447,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn sight(v: &[Aim; 3]) -> [Unit; 3] {
-        unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
+        direction::unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
     }
 
     #[inline(always)]

@@ -1,0 +1,102 @@
+//! Unit vectors: their making and Snell's law.
+
+use super::kernel::{length_times_unit, lengths, magnitude, shift};
+use super::{FixedEta, FixedInverse, Unit};
+use crate::math::root::{self, reciprocal_root_q29, sqrt_u32};
+use ::fixed::types::I16F16;
+
+/// Three integers shifted so that the largest magnitude is in 2²⁹ to 2³⁰, and by how much.
+#[inline(always)]
+fn align(v: &[i32; 3]) -> ([i32; 3], i32) {
+    let (_, z) = root::normalize(magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2]) | 1);
+    let up = z as i32 - 2;
+    if up >= 0 {
+        let up = up & 31;
+        ([v[0] << up, v[1] << up, v[2] << up], up)
+    } else {
+        ([v[0] >> 2, v[1] >> 2, v[2] >> 2], -2)
+    }
+}
+
+/// 1/√s for a sum of squares s in 2²⁸ to 2³²: Y in Q29 from 1 to 2 with 1/√s = Y·2^(half − 16),
+/// half, and s as a fraction, `s·2^(2·half − 32)` in Q32.
+#[inline(always)]
+fn inverse_root(s: u32) -> (u32, u32, u32) {
+    let (m, half) = if s < 1 << 30 { (s << 2, 1) } else { (s, 0) };
+    (reciprocal_root_q29(m), half, m)
+}
+
+/// The unit vector along three integers, to 17 bits, and their length.
+#[inline(always)]
+pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
+    // Fifteen bits a component, so that three squares fit a word, and five more for the
+    // first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
+    let (x, up) = align(v);
+    let (mut square, mut correction) = (0u32, 0i32);
+    for x in &x {
+        let (high, low) = (x >> 15, x >> 10 & 31);
+        square = square.wrapping_add(high.wrapping_mul(high) as u32);
+        correction = correction.wrapping_add(high.wrapping_mul(low));
+    }
+    let (y_q29, half, m) = inverse_root(square.wrapping_add((correction >> 4) as u32));
+    // x·Y·2^(half − 14) in Q17, as (x/2¹²)·(Y·2^half in Q15)/2¹⁷
+    let y = (y_q29 >> (14 - half)) as i32;
+    let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
+    let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
+    ([unit(x[0]), unit(x[1]), unit(x[2])], length)
+}
+
+/// See `Arithmetic::normalize`.
+#[inline(always)]
+pub(super) fn normalize(v: &[I16F16; 3]) -> ([Unit; 3], I16F16, FixedInverse) {
+    // Fifteen bits a component do for the way to a light; rounding them before they are
+    // squared keeps the result's length exact.
+    let (x, up) = align(&lengths(v));
+    let short = |x: i32| x.wrapping_add(1 << 14) >> 15;
+    let h = [short(x[0]), short(x[1]), short(x[2])];
+    let square = |h: i32| h.wrapping_mul(h) as u32;
+    let sum = square(h[0]).wrapping_add(square(h[1])).wrapping_add(square(h[2]));
+    let (y_q29, half, m) = inverse_root(sum);
+    // h·Y·2^(half + 1) in Q17: |h|·Y is at most 2¹⁶, so the product fits at Q14
+    let y_q14 = (y_q29.wrapping_add(1 << 14) >> 15) as i32;
+    let round = 1 << (12 - half);
+    let unit = |h: i32| Unit::from_bits(h.wrapping_mul(y_q14).wrapping_add(round) >> (13 - half));
+    let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
+    let inverse = FixedInverse { mantissa_q15: y_q29 >> 14, exponent: half as i32 + up - 15 };
+    ([unit(h[0]), unit(h[1]), unit(h[2])], I16F16::from_bits(length), inverse)
+}
+
+/// See `Arithmetic::refract`.
+#[inline(always)]
+pub(super) fn refract(
+    d: &[Unit; 3],
+    n: &[Unit; 3],
+    cos_i: Unit,
+    eta: &FixedEta,
+) -> Option<[Unit; 3]> {
+    let c_q15 = cos_i.to_bits() >> 2;
+    let sin2_q30 = (1u32 << 30).saturating_sub(c_q15.wrapping_mul(c_q15) as u32);
+    // sin²·η² with the square's sixteen bits: the product lies in Q(30 − exponent)
+    let square = eta.square as u32;
+    let product = ((sin2_q30 >> 15).wrapping_mul(square) >> 1)
+        .wrapping_add((sin2_q30 & 0x7fff).wrapping_mul(square) >> 16);
+    let e = eta.exponent as i32;
+    if e > 0 && product >> (30 - e) != 0 {
+        return None;
+    }
+    let sin2_t = shift(product as i32, e);
+    let cos2_t = (1 << 30) - sin2_t;
+    if cos2_t <= 0 {
+        return None;
+    }
+    // one step less than the square, so that 1 doesn't fall off the top of Q32
+    let cos_t_q17 = (sqrt_u32((cos2_t as u32 - 1) << 2) << 1) as i32;
+    let eta_q16 = eta.eta_q16 as i32;
+    let times_eta = |u: i32| length_times_unit(u << 1, eta_q16);
+    let along_n = times_eta(cos_i.to_bits()).wrapping_sub(cos_t_q17);
+    let f = |d: Unit, n: Unit| {
+        let tangent = times_eta(d.to_bits());
+        Unit::from_bits(tangent.wrapping_add(length_times_unit(along_n, n.to_bits())))
+    };
+    Some([f(d[0], n[0]), f(d[1], n[1]), f(d[2], n[2])])
+}

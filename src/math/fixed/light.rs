@@ -1,0 +1,22 @@
+//! Lights: intensities and distances with exponents of their own.
+
+use super::kernel::wide_shr;
+use super::{BRIGHTEST, FixedIntensity, FixedInverse};
+use ::fixed::types::I16F16;
+
+/// See `Arithmetic::falloff`.
+#[inline(always)]
+pub(super) fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16F16 {
+    let y_q14 = inverse.mantissa_q15 >> 1;
+    let square_q15 = y_q14.wrapping_mul(y_q14) >> 13;
+    let p_q30 = square_q15.wrapping_mul(intensity.mantissa_q15 as u32);
+    let exponent = i32::from(intensity.exponent) + 2 * inverse.exponent - 14;
+    I16F16::from_bits(wide_shr(p_q30, -exponent, BRIGHTEST) as i32)
+}
+
+/// See `Arithmetic::constant`.
+#[inline(always)]
+pub(super) fn constant(intensity: &FixedIntensity) -> I16F16 {
+    let p = wide_shr(intensity.mantissa_q15 as u32, -i32::from(intensity.exponent) - 1, BRIGHTEST);
+    I16F16::from_bits(p as i32)
+}

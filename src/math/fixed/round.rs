@@ -1,0 +1,112 @@
+//! Spheres and what is round: squares in the exponent of the radius.
+
+use super::kernel::{length_times_unit, project, shift, units};
+use super::{COARSE_SHIFT, FixedCoarse, FixedRadius, Unit};
+use ::fixed::types::I16F16;
+
+impl FixedRadius {
+    #[inline(always)]
+    pub(super) fn bits(&self) -> i32 {
+        (self.mantissa as i32) << (self.shift & 31)
+    }
+
+    #[inline(always)]
+    fn reciprocal(&self) -> i32 {
+        self.reciprocal as i32 | 0x1_0000
+    }
+
+    /// `a/r` in Q17: a·2³²/(m·2^e) with the operand brought to where the product keeps it.
+    #[inline(always)]
+    pub(super) fn divide(&self, a: i32) -> i32 {
+        // length_times_unit divides by 2¹⁷, the reciprocal carries 2³², the result wants 2¹⁷
+        let up = 2 + self.missing as i32 - self.shift as i32;
+        length_times_unit(shift(a, up), self.reciprocal())
+    }
+}
+
+/// See `Arithmetic::settle`.
+#[inline(always)]
+pub(super) fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
+    // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
+    let e = (1i32 << 17).wrapping_sub(project(&units(n), &units(n)));
+    let half = e >> 1;
+    let off = length_times_unit(r.bits(), half);
+    for (n, p) in n.iter_mut().zip(p) {
+        let unit = n.to_bits();
+        *p = I16F16::from_bits(p.to_bits().wrapping_add(length_times_unit(off, unit)));
+        *n = Unit::from_bits(unit.wrapping_add(length_times_unit(unit, half)));
+    }
+}
+
+/// See `Arithmetic::leg2`.
+#[inline(always)]
+pub(super) fn leg2(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> Option<u32> {
+    let bound = r.bits();
+    let (t, s) = (t.to_bits(), r.shift & 31);
+    let m = r.mantissa as u32;
+    let mut rest = m.wrapping_mul(m);
+    let mut correction = 0i32;
+    for i in 0..3 {
+        let f = c[i].to_bits().wrapping_sub(length_times_unit(t, d[i].to_bits()));
+        if f.wrapping_add(bound) as u32 >= (bound as u32) << 1 {
+            return None;
+        }
+        // (2ˢh + l)² ≈ 2²ˢ(h² + 2hl/2ˢ)
+        let high = f >> s;
+        correction = correction.wrapping_add(high.wrapping_mul(f.wrapping_sub(high << s)));
+        let square = high.wrapping_mul(high) as u32;
+        if square >= rest {
+            return None;
+        }
+        rest -= square;
+    }
+    // h may be negative, and the rest then grows, but never beyond m² and a little
+    let rest = rest.checked_add_signed(-(correction >> s << 1))?;
+    if rest > 0 { Some(rest) } else { None }
+}
+
+/// See `Arithmetic::ahead`.
+#[inline(always)]
+pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) -> I16F16 {
+    // |c − t·d| is below r, sixteen bits, and |d| fifteen: the sum of products fits
+    let s = r.shift & 31;
+    let mut sum = 0i32;
+    for i in 0..3 {
+        let d = d[i].to_bits();
+        let f = c[i].to_bits().wrapping_sub(length_times_unit(t.to_bits(), d));
+        sum = sum.wrapping_add((f >> s).wrapping_mul(d >> 2));
+    }
+    I16F16::from_bits((sum >> 15) << s)
+}
+
+/// See `Arithmetic::may_hit`.
+#[inline(always)]
+pub(super) fn may_hit(
+    ray: &FixedCoarse,
+    center: &[I16F16; 3],
+    r: &FixedRadius,
+    limit: I16F16,
+) -> bool {
+    let c = |i: usize| (center[i].to_bits() >> COARSE_SHIFT).wrapping_sub(ray.o[i]);
+    let c = [c(0), c(1), c(2)];
+    let p = |i: usize| c[i].wrapping_mul(ray.d[i]);
+    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 12;
+    // Rounding moves each component of the direction by 2⁻¹³: a sphere that is hit, at most
+    // t + r away, by less than 1.4·(t + r)/2¹², of which the radius has its part.
+    let r = (r.coarse as i32).wrapping_add(t >> 11);
+    let reach = (r as u32) << 1;
+    let last = (limit.to_bits() >> COARSE_SHIFT) as u32;
+    if t.wrapping_add(r) as u32 > last.wrapping_add(reach) {
+        return false;
+    }
+    let mut square = 0u32;
+    for i in 0..3 {
+        let f = c[i].wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
+        if f.wrapping_add(r) as u32 > reach {
+            return false;
+        }
+        square = square.wrapping_add(f.wrapping_mul(f) as u32);
+    }
+    // beyond 2¹⁵ steps (256 units) the squares don't fit, and the three bounds must do
+    r >= 1 << 15 || square <= r.wrapping_mul(r) as u32
+}

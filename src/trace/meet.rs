@@ -1,0 +1,66 @@
+//! A ray and one shape, found by its number.
+//!
+//! Spheres and planes are tested in line, since the smallest scenes are made of them; the other
+//! kinds here, once, out of line: their code is shared, and the short loops keep the registers.
+
+use crate::math::Arithmetic;
+use crate::scene::{Parts, Scene, with_shape};
+use crate::shape::{MaterialId, Meeting, Ray, Shape, Surface};
+
+/// Where a ray meets a shape, unless it is one that the ray leaves and can't meet again.
+#[inline(always)]
+pub(super) fn meet<A: Arithmetic, S: Shape<A>>(
+    shape: &S,
+    id: u32,
+    ray: &Ray<A>,
+    coarse: &A::Coarse,
+    limit: A::Length,
+) -> Option<Meeting<A>> {
+    let left = id == ray.leaving.shape;
+    if left && (S::FLAT || !ray.leaving.inwards) {
+        return None;
+    }
+    shape.nearest(ray, coarse, left, limit)
+}
+
+/// The same for the shape of any number.
+#[inline(never)]
+pub(super) fn meet_any<A: Arithmetic>(
+    parts: &Parts<'_, A>,
+    id: u32,
+    ray: &Ray<A>,
+    coarse: &A::Coarse,
+    limit: A::Length,
+) -> Option<Meeting<A>> {
+    with_shape!(parts, id, shape => meet(shape, id, ray, coarse, limit), None)
+}
+
+/// The surface and material where the ray met the shape of this number; puts `p` back on it.
+#[inline(always)]
+pub(super) fn surface_at<A: Arithmetic>(
+    scene: &Scene<'_, A>,
+    id: u32,
+    ray: &Ray<A>,
+    meeting: &Meeting<A>,
+    p: &mut [A::Length; 3],
+) -> Option<(Surface<A>, MaterialId)> {
+    let parts = &scene.parts;
+    if let Some(sphere) = parts.spheres.get(id as usize) {
+        Some((sphere.surface(ray, meeting, p), sphere.material()))
+    } else if let Some(plane) = parts.planes.get(id.wrapping_sub(scene.bounded) as usize) {
+        Some((plane.surface(ray, meeting, p), plane.material()))
+    } else {
+        surface_of_other(parts, id, ray, meeting, p)
+    }
+}
+
+#[inline(never)]
+fn surface_of_other<A: Arithmetic>(
+    parts: &Parts<'_, A>,
+    id: u32,
+    ray: &Ray<A>,
+    meeting: &Meeting<A>,
+    p: &mut [A::Length; 3],
+) -> Option<(Surface<A>, MaterialId)> {
+    with_shape!(parts, id, shape => Some((shape.surface(ray, meeting, p), shape.material())), None)
+}
