@@ -389,7 +389,7 @@ macro_rules! float {
             fn odd(x: $f, per: $f) -> bool {
                 let cell = x * per;
                 let whole = cell as i32;
-                let floor = whole - ((whole as $f > cell) as i32);
+                let floor = whole.wrapping_sub((whole as $f > cell) as i32);
                 floor & 1 != 0
             }
 
