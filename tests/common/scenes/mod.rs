@@ -6,6 +6,7 @@ pub mod double;
 pub mod fixed;
 pub mod single;
 
+#[allow(unused_imports)]
 pub use fixed::small::{CAMERA, SCENE};
 
 use whitted::frame::Tone;
