@@ -50,17 +50,23 @@ pub(super) fn surface_at<A: Arithmetic>(
     } else if let Some(plane) = parts.planes.get(id.wrapping_sub(scene.bounded) as usize) {
         Some((plane.surface(ray, meeting, p), plane.material()))
     } else {
-        surface_of_other(parts, id, ray, meeting, p)
+        let (surface, material, point) = surface_of_other(parts, id, *ray, *meeting, *p)?;
+        *p = point;
+        Some((surface, material))
     }
 }
 
+/// By value: what a reference is taken of can't stay in registers.
 #[inline(never)]
 fn surface_of_other<A: Arithmetic>(
     parts: &Parts<'_, A>,
     id: u32,
-    ray: &Ray<A>,
-    meeting: &Meeting<A>,
-    p: &mut [A::Length; 3],
-) -> Option<(Surface<A>, MaterialId)> {
-    with_shape!(parts, id, shape => Some((shape.surface(ray, meeting, p), shape.material())), None)
+    ray: Ray<A>,
+    meeting: Meeting<A>,
+    mut p: [A::Length; 3],
+) -> Option<(Surface<A>, MaterialId, [A::Length; 3])> {
+    with_shape!(parts, id, shape => {
+        let surface = shape.surface(&ray, &meeting, &mut p);
+        Some((surface, shape.material(), p))
+    }, None)
 }

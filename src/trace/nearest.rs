@@ -2,9 +2,9 @@
 
 use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
-use crate::octree::{Octree, Visitor, WalkStack};
+use crate::octree::{Visitor, WalkStack};
 use crate::scene::{Parts, Scene};
-use crate::shape::{Meeting, Ray, Shape};
+use crate::shape::{Meeting, Ray};
 use crate::tally::Tally;
 
 /// The nearest hit along a ray.
@@ -18,8 +18,20 @@ pub struct Hit<A: Arithmetic> {
     pub shape: u32,
 }
 
-/// Looks at shapes one by one and keeps the nearest hit.
-struct Nearest<'r, 'a, A: Arithmetic, T> {
+impl<A: Arithmetic> Hit<A> {
+    /// Takes a meeting that is nearer than this hit, or as near with a lower number.
+    #[inline(always)]
+    fn take(&mut self, meeting: Option<Meeting<A>>, id: u32) {
+        if let Some(Meeting { distance, detail }) = meeting
+            && (distance < self.distance || id < self.shape)
+        {
+            *self = Self { distance, detail, shape: id };
+        }
+    }
+}
+
+/// The search that goes on where spheres and planes are not all, or lie in a tree.
+struct Search<'r, 'a, A: Arithmetic, T> {
     parts: &'r Parts<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
@@ -27,37 +39,16 @@ struct Nearest<'r, 'a, A: Arithmetic, T> {
     tally: &'r mut T,
 }
 
-impl<A: Arithmetic, T: Tally> Nearest<'_, '_, A, T> {
-    /// Keeps a meeting that is nearer than the best so far, or as near with a lower number.
-    #[inline(always)]
-    fn keep(&mut self, meeting: Option<Meeting<A>>, id: u32) {
-        if let Some(Meeting { distance, detail }) = meeting
-            && (distance < self.best.distance || id < self.best.shape)
-        {
-            self.best = Hit { distance, detail, shape: id };
-        }
-    }
-
-    #[inline(always)]
-    fn test<S: Shape<A>>(&mut self, shape: &S, id: u32) {
-        self.tally.test();
-        self.keep(meet(shape, id, self.ray, &self.coarse, self.best.distance), id);
-    }
-
+impl<A: Arithmetic, T: Tally> Search<'_, '_, A, T> {
     #[inline(always)]
     fn test_any(&mut self, id: u32) {
         self.tally.test();
-        self.keep(meet_any(self.parts, id, self.ray, &self.coarse, self.best.distance), id);
-    }
-
-    #[inline(never)]
-    fn walk(&mut self, tree: &Octree<'_, A>, walk: &mut WalkStack<A>) {
-        let ray = self.ray;
-        tree.walk(&ray.origin, &ray.direction, walk, self);
+        let limit = self.best.distance;
+        self.best.take(meet_any(self.parts, id, self.ray, &self.coarse, limit), id);
     }
 }
 
-impl<A: Arithmetic, T: Tally> Visitor<A> for Nearest<'_, '_, A, T> {
+impl<A: Arithmetic, T: Tally> Visitor<A> for Search<'_, '_, A, T> {
     #[inline(always)]
     fn limit(&self) -> A::Length {
         self.best.distance
@@ -66,7 +57,11 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Nearest<'_, '_, A, T> {
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         match self.parts.spheres.get(id as usize) {
-            Some(sphere) => self.test(sphere, id),
+            Some(sphere) => {
+                self.tally.test();
+                let limit = self.best.distance;
+                self.best.take(meet(sphere, id, self.ray, &self.coarse, limit), id);
+            }
             None => self.test_any(id),
         }
         false
@@ -78,6 +73,29 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Nearest<'_, '_, A, T> {
     }
 }
 
+/// Goes on from the best hit so far with the tree, or with the shapes that no line above tests.
+/// Out of line and by value, so that the short loops keep their numbers in registers.
+#[inline(never)]
+fn search<A: Arithmetic, T: Tally>(
+    scene: &Scene<'_, A>,
+    ray: Ray<A>,
+    best: Hit<A>,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Hit<A> {
+    let parts = &scene.parts;
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut search = Search { parts, ray: &ray, coarse, best, tally };
+    if let Some(tree) = &parts.tree {
+        tree.walk(&ray.origin, &ray.direction, walk, &mut search);
+    } else {
+        for id in parts.spheres.len() as u32..scene.bounded {
+            search.test_any(id);
+        }
+    }
+    search.best
+}
+
 /// The nearest hit in front of `limit`; the lowest number among equals.
 #[inline(always)]
 pub(crate) fn nearest<A: Arithmetic, T: Tally>(
@@ -87,28 +105,28 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally>(
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Hit<A>> {
-    let coarse = A::coarse(&ray.origin, &ray.direction);
-    let best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     let parts = &scene.parts;
-    let mut search = Nearest { parts, ray, coarse, best, tally };
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     // Planes first: their distance bounds the walk.
     let mut id = scene.bounded;
     for plane in parts.planes {
-        search.test(plane, id);
+        tally.test();
+        best.take(meet(plane, id, ray, &coarse, best.distance), id);
         id += 1;
     }
-    if let Some(tree) = &parts.tree {
-        search.walk(tree, walk);
-    } else {
+    if parts.tree.is_none() {
         let mut id = 0;
         for sphere in parts.spheres {
-            search.test(sphere, id);
+            tally.test();
+            best.take(meet(sphere, id, ray, &coarse, best.distance), id);
             id += 1;
         }
-        while id < scene.bounded {
-            search.test_any(id);
-            id += 1;
+        if id != scene.bounded {
+            best = search(scene, *ray, best, walk, tally);
         }
+    } else {
+        best = search(scene, *ray, best, walk, tally);
     }
-    if search.best.distance < limit { Some(search.best) } else { None }
+    if best.distance < limit { Some(best) } else { None }
 }

@@ -3,16 +3,16 @@
 use super::meet::{meet, meet_any, surface_at};
 use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
-use crate::octree::{Octree, Visitor, WalkStack};
+use crate::octree::{Visitor, WalkStack};
 use crate::scene::{Parts, Scene, Shadow};
-use crate::shape::{Leaving, Meeting, Plane, Ray, Shape, Sphere};
+use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
 const MAX_SHEETS: usize = 32;
 
-/// Looks for any shape along a shadow ray.
-struct Occluder<'r, 'a, A: Arithmetic, T> {
+/// The search that goes on where spheres and planes are not all, or lie in a tree.
+struct Search<'r, 'a, A: Arithmetic, T> {
     parts: &'r Parts<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
@@ -21,8 +21,28 @@ struct Occluder<'r, 'a, A: Arithmetic, T> {
     tally: &'r mut T,
 }
 
-impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
-    /// Notes whether a shape blocks the ray, and says whether the search is over.
+/// Whether a sphere blocks the ray.
+#[inline(always)]
+fn blocks<A: Arithmetic>(
+    sphere: &Sphere<A>,
+    id: u32,
+    ray: &Ray<A>,
+    coarse: &A::Coarse,
+    limit: A::Length,
+) -> bool {
+    let left = id == ray.leaving.shape;
+    (ray.leaving.inwards || !left) && sphere.occludes(ray, coarse, left, limit)
+}
+
+impl<A: Arithmetic, T: Tally> Search<'_, '_, A, T> {
+    /// Notes whether a shape blocks the ray, and says so.
+    #[inline(always)]
+    fn test_any(&mut self, id: u32) -> bool {
+        self.tally.test();
+        let meeting = meet_any(self.parts, id, self.ray, &self.coarse, self.limit);
+        self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
+    }
+
     #[inline(always)]
     fn note(&mut self, blocked: bool, id: u32) -> bool {
         if blocked {
@@ -30,39 +50,9 @@ impl<A: Arithmetic, T: Tally> Occluder<'_, '_, A, T> {
         }
         blocked
     }
-
-    #[inline(always)]
-    fn sphere(&mut self, sphere: &Sphere<A>, id: u32) -> bool {
-        self.tally.test();
-        let (ray, leaving) = (self.ray, self.ray.leaving);
-        let left = id == leaving.shape;
-        let blocked =
-            (leaving.inwards || !left) && sphere.occludes(ray, &self.coarse, left, self.limit);
-        self.note(blocked, id)
-    }
-
-    #[inline(always)]
-    fn plane(&mut self, plane: &Plane<A>, id: u32) -> bool {
-        self.tally.test();
-        let meeting = meet(plane, id, self.ray, &self.coarse, self.limit);
-        self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
-    }
-
-    #[inline(always)]
-    fn any(&mut self, id: u32) -> bool {
-        self.tally.test();
-        let meeting = meet_any(self.parts, id, self.ray, &self.coarse, self.limit);
-        self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
-    }
-
-    #[inline(never)]
-    fn walk(&mut self, tree: &Octree<'_, A>, walk: &mut WalkStack<A>) {
-        let ray = self.ray;
-        tree.walk(&ray.origin, &ray.direction, walk, self);
-    }
 }
 
-impl<A: Arithmetic, T: Tally> Visitor<A> for Occluder<'_, '_, A, T> {
+impl<A: Arithmetic, T: Tally> Visitor<A> for Search<'_, '_, A, T> {
     #[inline(always)]
     fn limit(&self) -> A::Length {
         self.limit
@@ -71,8 +61,12 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Occluder<'_, '_, A, T> {
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         match self.parts.spheres.get(id as usize) {
-            Some(sphere) => self.sphere(sphere, id),
-            None => self.any(id),
+            Some(sphere) => {
+                self.tally.test();
+                let blocked = blocks(sphere, id, self.ray, &self.coarse, self.limit);
+                self.note(blocked, id)
+            }
+            None => self.test_any(id),
         }
     }
 
@@ -80,6 +74,31 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Occluder<'_, '_, A, T> {
     fn node(&mut self) {
         self.tally.node();
     }
+}
+
+/// Goes on with the tree, or with the shapes that no line below tests. By value, as in the search
+/// for the nearest hit.
+#[inline(never)]
+fn search<A: Arithmetic, T: Tally>(
+    scene: &Scene<'_, A>,
+    ray: Ray<A>,
+    limit: A::Length,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Option<u32> {
+    let parts = &scene.parts;
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut search = Search { parts, ray: &ray, coarse, limit, found: None, tally };
+    if let Some(tree) = &parts.tree {
+        tree.walk(&ray.origin, &ray.direction, walk, &mut search);
+        return search.found;
+    }
+    for id in parts.spheres.len() as u32..scene.bounded {
+        if search.test_any(id) {
+            return Some(id);
+        }
+    }
+    None
 }
 
 /// The number of any shape along the ray nearer than `limit`.
@@ -91,34 +110,29 @@ fn occluder<A: Arithmetic, T: Tally>(
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<u32> {
-    let coarse = A::coarse(&ray.origin, &ray.direction);
     let parts = &scene.parts;
-    let mut search = Occluder { parts, ray, coarse, limit, found: None, tally };
-    match &parts.tree {
-        Some(tree) => search.walk(tree, walk),
-        None => {
-            let mut id = 0;
-            for sphere in parts.spheres {
-                if search.sphere(sphere, id) {
-                    return search.found;
-                }
-                id += 1;
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    if parts.tree.is_none() {
+        let mut id = 0;
+        for sphere in parts.spheres {
+            tally.test();
+            if blocks(sphere, id, ray, &coarse, limit) {
+                return Some(id);
             }
-            while id < scene.bounded {
-                if search.any(id) {
-                    return search.found;
-                }
-                id += 1;
-            }
+            id += 1;
         }
     }
-    if search.found.is_some() {
-        return search.found;
+    if parts.tree.is_some() || parts.spheres.len() as u32 != scene.bounded {
+        let found = search(scene, *ray, limit, walk, tally);
+        if found.is_some() {
+            return found;
+        }
     }
     let mut id = scene.bounded;
     for plane in parts.planes {
-        if search.plane(plane, id) {
-            return search.found;
+        tally.test();
+        if meet(plane, id, ray, &coarse, limit).is_some_and(|m| m.distance < limit) {
+            return Some(id);
         }
         id += 1;
     }
@@ -135,7 +149,7 @@ pub(super) fn visible<A: Arithmetic, T: Tally>(
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
     if !scene.opaque_shadows {
-        return filtered(scene, ray, limit, walk, tally);
+        return filtered(scene, *ray, limit, walk, tally);
     }
     match occluder(scene, ray, limit, walk, tally) {
         Some(shape) => {
@@ -150,13 +164,13 @@ pub(super) fn visible<A: Arithmetic, T: Tally>(
 #[inline(never)]
 fn filtered<A: Arithmetic, T: Tally>(
     scene: &Scene<'_, A>,
-    ray: &Ray<A>,
+    mut ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
     let mut share = [A::FULL; 3];
-    let (mut ray, mut left) = (*ray, limit);
+    let mut left = limit;
     for _ in 0..MAX_SHEETS {
         let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
