@@ -16,7 +16,26 @@ const WIDTH: u16 = 32;
 const HEIGHT: u16 = 24;
 
 /// The scene, the arithmetic, and the checksum at pixel centres and at corners.
-const GOLDEN: &[(&str, &str, u64, u64)] = &[];
+const GOLDEN: &[(&str, &str, u64, u64)] = &[
+    ("small", "fixed", 0x90db33792c23f79c, 0xe0a9f409d3010225),
+    ("every", "fixed", 0x750c3f333d315ab2, 0x3f106cb50c0d5624),
+    ("showcase", "fixed", 0xf901c4dc80a61925, 0xaae67c9222d87a5e),
+    ("limit", "fixed", 0xb626fd67b8a6ea54, 0x7c99f1551839e9d6),
+    ("raystones", "fixed", 0x5052a227d9689dc4, 0xeaf88c8d2a5efc25),
+    ("ftb", "fixed", 0x2e5908678c748c62, 0x932fc7cf1752d53f),
+    ("small", "f32", 0xcb201c384e17fb63, 0x18f92a8a800265ba),
+    ("every", "f32", 0xb87267001d1ee781, 0x0aa68c8517927ac0),
+    ("showcase", "f32", 0x8127768cb5edac28, 0xcae947a34bea6382),
+    ("limit", "f32", 0x89d3f35f46483e55, 0x4aa0b93aa008ef4c),
+    ("raystones", "f32", 0xc1b7a36c545283bb, 0x242bf10d14caf6d8),
+    ("ftb", "f32", 0xc6b3f9038accd474, 0x10c7221d418b46b5),
+    ("small", "f64", 0x5b23a8a9cfd36c3a, 0xb6636982385be38f),
+    ("every", "f64", 0xd20eeaf66afe4a4b, 0x0b9caef71bd733ce),
+    ("showcase", "f64", 0x445a85f65e5688df, 0x45c8e36c0eb8643c),
+    ("limit", "f64", 0xed2e1835910c7e64, 0x9b675832455db96a),
+    ("raystones", "f64", 0x5c255e4b72ad350f, 0x3bb6df6e56ccb698),
+    ("ftb", "f64", 0xfaff0f4057839c30, 0x65ffae8f6e35955a),
+];
 
 /// FNV-1a (Fowler, Noll, Vo), 64 bits.
 fn checksum(bytes: &[u8]) -> u64 {
