@@ -288,12 +288,13 @@ fn scaled(solid: &Solid, k: f64) -> Solid {
 }
 
 /// The reference's answer if rays that start `clear` away meet the same surface, at nearly the
-/// same distance; and by how much their normals differ.
+/// same distance; and by how much their normals differ. Rays a quarter as far away are asked, too:
+/// those farther away may all miss a sharp corner that this one passes.
 fn clearly(solid: &Solid, o: V, d: V, clear: f64) -> Option<(Option<(f64, V)>, f64)> {
     let first = reference(solid, o, d).first().copied();
     let mut turn = 0.0f64;
     for i in 0..3 {
-        for step in [clear, -clear] {
+        for step in [clear, -clear, 0.25 * clear, -0.25 * clear] {
             let mut near = o;
             near[i] += step;
             match (first, reference(solid, near, d).first()) {
