@@ -97,6 +97,11 @@ impl Log {
 pub(crate) struct Record<'a>(&'a str);
 
 impl<'a> Record<'a> {
+    /// The keys and values of a line.
+    pub(crate) fn new(line: &'a str) -> Self {
+        Self(line)
+    }
+
     /// The value of a key.
     pub(crate) fn get(self, key: &str) -> Result<&'a str, String> {
         self.0
