@@ -119,9 +119,19 @@ impl<'a> Record<'a> {
 
 /// Builds a program in a directory of its own settings and returns its path.
 pub(crate) fn build(dir: &Path, bin: &str, target: &str) -> Result<PathBuf, String> {
+    build_with(dir, bin, target, &[])
+}
+
+/// The same, with more for cargo to know.
+pub(crate) fn build_with(
+    dir: &Path,
+    bin: &str,
+    target: &str,
+    more: &[&str],
+) -> Result<PathBuf, String> {
     let args =
         ["build", "-q", "--release", "--bin", bin, "--target", target, "--message-format=json"];
-    let messages = output(&mut cargo(dir, args))?;
+    let messages = output(cargo(dir, args).args(more))?;
     // One message a line; only the finished program's names an executable that isn't null.
     messages
         .lines()

@@ -19,8 +19,23 @@ use crate::setup;
 use crate::shell::{boards, output};
 
 const TARGET: &str = "thumbv6m-none-eabi";
-/// The display of the board's default features.
-const DISPLAY: (u16, u16) = (240, 240);
+/// A display that the board is built for.
+struct Display {
+    /// As the board's feature.
+    name: &'static str,
+    /// Pixels across and down.
+    size: (u16, u16),
+    /// Where they begin in the controller's memory.
+    offset: (u16, u16),
+}
+
+/// All of them, the one of the default features first.
+const DISPLAYS: [Display; 4] = [
+    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0) },
+    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0) },
+    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26) },
+    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0) },
+];
 /// What the checks draw: the emulator does some ten million cycles a second, if nothing else runs.
 const SMALL: (u16, u16) = (60, 45);
 /// How frames get to the display.
@@ -30,12 +45,15 @@ const SENDING: f64 = 0.03;
 
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
+                         [--display DISPLAY]
     scenes are showcase, limit, raystones and ftb; the size is 60x45 unless given, at most the
     display's; ways are bands (by DMA, the default), graphics (embedded-graphics) and trace
-    (nothing is sent)";
+    (nothing is sent); displays are st7789-240x240, the default, st7789-240x320, st7735s-160x80
+    and ili9341-320x240";
 
 /// A frame to emulate.
 struct Order<'a> {
+    display: &'a Display,
     job: Job,
     way: &'a str,
 }
@@ -52,7 +70,7 @@ struct Frame {
 /// The command: draws a scene, writes what the display shows, compares, and says what it took.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let mut scene = SceneName::Showcase;
-    let (mut size, mut way, mut file) = (SMALL, WAYS[0], None);
+    let (mut size, mut way, mut file, mut display) = (Some(SMALL), WAYS[0], None, &DISPLAYS[0]);
     let (pairs, rest) = words.as_chunks::<2>();
     if !rest.is_empty() {
         return Err(USAGE.into());
@@ -62,26 +80,28 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
             "--scene" => {
                 scene = *SceneName::ALL.iter().find(|s| s.name() == value).ok_or(USAGE)?;
             }
-            "--size" if value == "full" => size = DISPLAY,
+            "--size" if value == "full" => size = None,
             "--size" => {
                 let (width, height) = value.split_once('x').ok_or(USAGE)?;
                 let side = |text: &str| text.parse::<u16>().ok().filter(|&n| n > 0).ok_or(USAGE);
-                size = (side(width)?, side(height)?);
-                if size.0 > DISPLAY.0 || size.1 > DISPLAY.1 {
-                    return Err(USAGE.into());
-                }
+                size = Some((side(width)?, side(height)?));
             }
+            "--display" => display = DISPLAYS.iter().find(|d| d.name == value).ok_or(USAGE)?,
             "--way" => way = *WAYS.iter().find(|&&way| way == value).ok_or(USAGE)?,
             "-o" => file = Some(PathBuf::from(value)),
             _ => return Err(USAGE.into()),
         }
     }
+    let size = size.unwrap_or(display.size);
+    if size.0 > display.size.0 || size.1 > display.size.1 {
+        return Err(USAGE.into());
+    }
     setup::run()?;
-    let image = build()?;
-    let order = Order { job: job(scene, size), way };
+    let image = build(display)?;
+    let order = Order { display, job: job(scene, size), way };
     let frame = emulate(&image, &order)?;
     if let Some(file) = file {
-        png(&file, &frame.memory)?;
+        png(&file, display, &frame.memory)?;
     }
     let record = Record::new(&frame.line);
     let pixels = u64::from(size.0) * u64::from(size.1);
@@ -106,21 +126,26 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// The checks: a small frame by either way is the host's, and DMA hides the sending.
+/// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
+/// the sending.
 pub(crate) fn check(report: &mut Report) {
-    let Some(image) = report.check("Pico: the image is built", build) else { return };
     let job = job(SceneName::Limit, SMALL);
     let mut cycles = Vec::new();
-    for way in WAYS {
-        let name = format!("Pico (rp2040py): {job} by {way}");
-        cycles.extend(report.check(&name, || {
-            let order = Order { job, way };
-            let frame = emulate(&image, &order)?;
-            compare(&order, &frame)?;
-            Ok(frame.cycles)
-        }));
+    for (display, ways) in [(&DISPLAYS[0], &WAYS[..]), (&DISPLAYS[2], &WAYS[..1])] {
+        let name = format!("Pico with {}: the image is built", display.name);
+        let Some(image) = report.check(&name, || build(display)) else { continue };
+        for &way in ways {
+            let name = format!("Pico with {} (rp2040py): {job} by {way}", display.name);
+            cycles.extend(report.check(&name, || {
+                let order = Order { display, job, way };
+                let frame = emulate(&image, &order)?;
+                compare(&order, &frame)?;
+                Ok(frame.cycles)
+            }));
+        }
     }
-    if let &[bands, _, trace] = cycles.as_slice() {
+    // Of the first display; all or none.
+    if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
             let more = bands as f64 / trace as f64 - 1.0;
             let line =
@@ -135,8 +160,10 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
     Job { scene, arith: ArithName::Fixed, width, height }
 }
 
-fn build() -> Result<PathBuf, String> {
-    machine::build(&boards().join("pico"), "pico", TARGET)
+fn build(display: &Display) -> Result<PathBuf, String> {
+    let features = format!("{},rtt", display.name);
+    let more = ["--no-default-features", "--features", &features];
+    machine::build_with(&boards().join("pico"), "pico", TARGET, &more)
 }
 
 /// Runs the image until the frame is drawn.
@@ -148,7 +175,8 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     // Nothing is to be written into the sources.
     python.arg("-B").arg(boards().join("pico/emulate/emulate.py")).arg(image);
     python.arg(format!("{} {}", order.job, order.way));
-    python.args([DISPLAY.0, DISPLAY.1, 0, 0].map(|n| n.to_string())).arg(&dump);
+    let Display { size, offset, .. } = order.display;
+    python.args([size.0, size.1, offset.0, offset.1].map(|n| n.to_string())).arg(&dump);
     let text = output(&mut python)?;
     let line = text
         .lines()
@@ -164,11 +192,12 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
 fn expected(order: &Order<'_>) -> Vec<u8> {
     let Job { scene, width, height, .. } = order.job;
     let line = |width: u16| usize::from(width) * rgb565::BYTES;
-    let mut memory = vec![0; line(DISPLAY.0) * usize::from(DISPLAY.1)];
+    let (across, down) = order.display.size;
+    let mut memory = vec![0; line(across) * usize::from(down)];
     if order.way != "trace" {
         let mut picture = vec![0; line(width) * usize::from(height)];
         rgb565::draw(scene, width, height, &mut picture);
-        let rows = memory.chunks_exact_mut(line(DISPLAY.0));
+        let rows = memory.chunks_exact_mut(line(across));
         for (row, traced) in rows.zip(picture.chunks_exact(line(width))) {
             row[..traced.len()].copy_from_slice(traced);
         }
@@ -190,8 +219,8 @@ fn compare(order: &Order<'_>, frame: &Frame) -> Result<(), String> {
             "{} of {} pixels differ; the first, at ({}, {}), is {:02x?}, on the host {:02x?}",
             wrong.len(),
             here.len(),
-            i % usize::from(DISPLAY.0),
-            i / usize::from(DISPLAY.0),
+            i % usize::from(order.display.size.0),
+            i / usize::from(order.display.size.0),
             there[i],
             here[i]
         )),
@@ -199,7 +228,7 @@ fn compare(order: &Order<'_>, frame: &Frame) -> Result<(), String> {
 }
 
 /// Writes the display's memory as a PNG.
-fn png(path: &Path, memory: &[u8]) -> Result<(), String> {
+fn png(path: &Path, display: &Display, memory: &[u8]) -> Result<(), String> {
     let rgb: Vec<u8> = memory
         .as_chunks::<{ rgb565::BYTES }>()
         .0
@@ -211,7 +240,7 @@ fn png(path: &Path, memory: &[u8]) -> Result<(), String> {
         .collect();
     let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let file = File::create(path).map_err(|error| place(&error))?;
-    let (width, height) = (u32::from(DISPLAY.0), u32::from(DISPLAY.1));
+    let (width, height) = (u32::from(display.size.0), u32::from(display.size.1));
     let mut encoder = png::Encoder::new(BufWriter::new(file), width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
@@ -223,17 +252,18 @@ fn png(path: &Path, memory: &[u8]) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{DISPLAY, Frame, Order, WAYS, compare, expected, job};
+    use super::{DISPLAYS, Frame, Order, WAYS, compare, expected, job};
     use whitted_demo::job::SceneName;
 
     #[test]
     fn one_wrong_bit_is_found() {
-        let order = Order { job: job(SceneName::Limit, (8, 6)), way: WAYS[0] };
+        let display = &DISPLAYS[0];
+        let order = Order { display, job: job(SceneName::Limit, (8, 6)), way: WAYS[0] };
         let mut frame = Frame { memory: expected(&order), cycles: 0, line: String::new() };
         assert!(frame.memory.iter().any(|&byte| byte != 0));
         assert_eq!(compare(&order, &frame), Ok(()));
         // The second pixel of the second row.
-        frame.memory[(usize::from(DISPLAY.0) + 1) * 2 + 1] ^= 1;
+        frame.memory[(usize::from(display.size.0) + 1) * 2 + 1] ^= 1;
         let error = compare(&order, &frame).unwrap_err();
         assert!(error.starts_with("1 of 57600 pixels differ; the first, at (1, 1)"), "{error}");
         frame.memory.pop();

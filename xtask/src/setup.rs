@@ -111,15 +111,13 @@ pub(crate) fn python() -> Result<PathBuf, String> {
         return Ok(python);
     }
     println!("setup: installing {PICO_EMULATOR} with pip into {}", place.display());
-    let by_hand = format!(
-        "A Python of 3.10 or later with its module venv is needed; on Debian and Ubuntu: \
-         sudo apt-get install python3-venv\nWithout it, `cargo xtask test` does with --only, all \
-         but pico."
-    );
+    let by_hand = "A Python of 3.10 or later with its module venv is needed; on Debian and Ubuntu: \
+                   sudo apt-get install python3-venv\nWithout it, `cargo xtask test` does with \
+                   --only, all but pico.";
     // A half-made one is made anew.
     let venv = || shell::run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&place));
     if venv().is_err() {
-        apt("python3-venv", &by_hand)?;
+        apt("python3-venv", by_hand)?;
         venv().map_err(|error| format!("{error}\n{by_hand}"))?;
     }
     shell::run(
