@@ -18,9 +18,6 @@ use crate::board::{Board, Display};
 use crate::log;
 use crate::order::{Order, Way};
 
-/// Bytes that a band which isn't sent is traced into.
-const UNSENT: usize = 240 * 2 * 8;
-
 impl Board {
     /// Clears the display and draws a frame in its upper left corner, between two edges of the
     /// mark. The stack is painted below `top`.
@@ -43,7 +40,7 @@ fn draw(display: &mut Display, order: &Order) -> Result<(), Infallible> {
     let mut work = Work::<_, MAX_DEPTH>::new();
     let (shot, mut renderer) = rgb565::renderer(scene, width, height, &mut work);
     let mut y = 0;
-    let mut next = |bytes: &mut [u8]| band(&mut renderer, &mut y, &shot.output, bytes);
+    let next = |bytes: &mut [u8]| band(&mut renderer, &mut y, &shot.output, bytes);
     match way {
         Way::Bands => {
             // The driver opens the window, the link fills it.
@@ -58,10 +55,8 @@ fn draw(display: &mut Display, order: &Order) -> Result<(), Infallible> {
             Image::new(&picture, Point::zero()).draw(display)
         }
         Way::Trace => {
-            let mut bytes = [0; UNSENT];
-            while next(&mut bytes) > 0 {
-                core::hint::black_box(&mut bytes);
-            }
+            // SAFETY: nothing is sent at all.
+            unsafe { display.dcs() }.keep_bands(next);
             Ok(())
         }
     }

@@ -120,6 +120,15 @@ impl Link {
         self.finish()
     }
 
+    /// Has a buffer filled again and again, and sends nothing: to know what sending costs.
+    pub(crate) fn keep_bands(&mut self, mut fill: impl FnMut(&mut [u8]) -> usize) {
+        if let Some(band) = &mut self.band {
+            while fill(band.bytes) > 0 {
+                core::hint::black_box(&mut *band.bytes);
+            }
+        }
+    }
+
     /// Starts sending a buffer as soon as the other is sent, which comes back.
     fn exchange(&mut self, full: Band) -> Band {
         let (channel, wires, mut band) = self.sender.take().expect(PUT_BACK).wait();
