@@ -9,6 +9,15 @@ use crate::shell::{self, boards, cargo, root};
 /// Nothing may warn.
 const STRICT: [&str; 3] = ["--", "-D", "warnings"];
 
+/// The Pico's displays, and its log.
+const PICO: [&str; 5] = [
+    "st7789-240x240,rtt",
+    "st7789-240x240",
+    "st7789-240x320,rtt",
+    "st7735s-160x80,rtt",
+    "ili9341-320x240,rtt",
+];
+
 /// Formatting, clippy and rustdoc, on the host and for every chip.
 pub(crate) fn check(report: &mut Report) {
     let mut step = |name: &str, dir: &Path, words: &str, strict: bool| {
@@ -34,6 +43,11 @@ pub(crate) fn check(report: &mut Report) {
         let words = format!("clippy -q --target {}", machine.target);
         // In the board's directory: its own settings hold only there.
         step(&name, &boards.join(machine.board), &words, true);
+    }
+    for features in PICO {
+        let name = format!("clippy, pico, {features}");
+        let words = format!("clippy -q --no-default-features --features {features}");
+        step(&name, &boards.join("pico"), &words, true);
     }
     for name in ["nopanic", "size"] {
         let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");

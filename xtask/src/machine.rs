@@ -97,6 +97,11 @@ impl Log {
 pub(crate) struct Record<'a>(&'a str);
 
 impl<'a> Record<'a> {
+    /// The keys and values of a line.
+    pub(crate) fn new(line: &'a str) -> Self {
+        Self(line)
+    }
+
     /// The value of a key.
     pub(crate) fn get(self, key: &str) -> Result<&'a str, String> {
         self.0
@@ -114,9 +119,19 @@ impl<'a> Record<'a> {
 
 /// Builds a program in a directory of its own settings and returns its path.
 pub(crate) fn build(dir: &Path, bin: &str, target: &str) -> Result<PathBuf, String> {
+    build_with(dir, bin, target, &[])
+}
+
+/// The same, with more for cargo to know.
+pub(crate) fn build_with(
+    dir: &Path,
+    bin: &str,
+    target: &str,
+    more: &[&str],
+) -> Result<PathBuf, String> {
     let args =
         ["build", "-q", "--release", "--bin", bin, "--target", target, "--message-format=json"];
-    let messages = output(&mut cargo(dir, args))?;
+    let messages = output(cargo(dir, args).args(more))?;
     // One message a line; only the finished program's names an executable that isn't null.
     messages
         .lines()

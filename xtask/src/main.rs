@@ -1,4 +1,4 @@
-//! What this repository needs done to it: `cargo xtask setup`, `test` and `bench`.
+//! What this repository needs done to it: `cargo xtask setup`, `test`, `bench` and `emulate`.
 
 mod bench;
 mod elf;
@@ -7,6 +7,7 @@ mod lint;
 mod machine;
 mod nopanic;
 mod oled;
+mod pico;
 mod report;
 mod setup;
 mod shell;
@@ -18,18 +19,21 @@ use report::Report;
 const USAGE: &str = "\
 cargo xtask setup                          install what the rest needs
 cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
-                                           lint, host, nopanic, boards
+                                           lint, host, nopanic, boards, pico
 cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
                                            --check compares with it instead
+cargo xtask emulate pico [OPTION]…         run the Pico's image and save what its display shows;
+                                           --help names the options
 cargo xtask nopanic                        the no-panic proof alone, naming culprits";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let done = match args.as_slice() {
-        ["setup"] => setup::run(),
+        ["setup"] => setup::run().and_then(|()| setup::python().map(drop)),
         ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
+        ["emulate", "pico", options @ ..] => pico::run(options),
         ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
         _ => Err(USAGE.into()),
     };
@@ -46,11 +50,12 @@ fn main() -> ExitCode {
 type Group = fn(&mut Report);
 
 /// The groups, in the order they run.
-const GROUPS: [(&str, Group); 4] = [
+const GROUPS: [(&str, Group); 5] = [
     ("lint", lint::check),
     ("host", lint::host_tests),
     ("nopanic", nopanic::check),
     ("boards", firmware::check),
+    ("pico", pico::check),
 ];
 
 /// The groups that `--only` names, or all.

@@ -7,11 +7,12 @@ pub mod checksum;
 pub mod frame;
 pub mod job;
 pub mod oled;
+pub mod rgb565;
 pub mod scenes;
 
-#[cfg(all(target_arch = "arm", target_os = "none"))]
+#[cfg(all(target_arch = "arm", target_os = "none", feature = "semihosting"))]
 pub mod board;
-#[cfg(all(target_arch = "arm", target_os = "none"))]
+#[cfg(all(target_arch = "arm", target_os = "none", feature = "semihosting"))]
 mod counter;
 #[cfg(all(target_arch = "arm", target_os = "none"))]
-mod stack;
+pub mod stack;

@@ -15,13 +15,15 @@ unsafe extern "C" {
 }
 
 /// Bytes of RAM that hold statics.
-pub(crate) fn static_bytes() -> usize {
+#[must_use]
+pub fn static_bytes() -> usize {
     (&raw const __sheap).addr() - (&raw const __sdata).addr()
 }
 
 /// Paints what is free below this call; [`used`] tells what was used since.
 #[inline(never)]
-pub(crate) fn paint() -> usize {
+#[must_use]
+pub fn paint() -> usize {
     let top = stack_pointer();
     let mut p = &raw mut __sheap;
     while p.addr() + MARGIN < top {
@@ -38,7 +40,8 @@ pub(crate) fn paint() -> usize {
 
 /// How far below `top` the stack has reached since [`paint`] returned it.
 #[inline(never)]
-pub(crate) fn used(top: usize) -> usize {
+#[must_use]
+pub fn used(top: usize) -> usize {
     let mut p = &raw const __sheap;
     // SAFETY: reads memory that `paint` has written.
     while p.addr() < top && unsafe { ptr::read_volatile(p) } == PAINT {

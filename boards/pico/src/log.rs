@@ -1,0 +1,33 @@
+//! What the board says, where somebody listens.
+
+use crate::order::Order;
+
+/// A frame has been drawn.
+#[cfg(feature = "rtt")]
+pub(crate) fn frame(order: &Order, us: u64, stack: usize, memory: usize) {
+    defmt::info!(
+        "{=str} {=u16}x{=u16}: {=u64} us, stack {=usize} bytes, static RAM {=usize} bytes",
+        order.scene.name(),
+        order.width,
+        order.height,
+        us,
+        stack,
+        memory
+    );
+}
+
+/// Nobody listens.
+#[cfg(not(feature = "rtt"))]
+pub(crate) fn frame(_: &Order, _: u64, _: usize, _: usize) {}
+
+#[cfg(feature = "rtt")]
+use {defmt_rtt as _, panic_probe as _};
+
+/// Stops; the display keeps what it shows.
+#[cfg(not(feature = "rtt"))]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {
+        cortex_m::asm::wfi();
+    }
+}

@@ -1,0 +1,273 @@
+//! The Raspberry Pi Pico, emulated: its image runs from reset, boot ROM first, and a model of the
+//! display receives the picture, which is compared with the host's.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use embedded_graphics::pixelcolor::raw::RawU16;
+use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
+use embedded_graphics::prelude::*;
+use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted_demo::rgb565;
+
+use crate::elf;
+use crate::machine::{self, Record};
+use crate::report::Report;
+use crate::setup;
+use crate::shell::{boards, output};
+
+const TARGET: &str = "thumbv6m-none-eabi";
+/// A display that the board is built for.
+struct Display {
+    /// As the board's feature.
+    name: &'static str,
+    /// Pixels across and down.
+    size: (u16, u16),
+    /// Where they begin in the controller's memory.
+    offset: (u16, u16),
+}
+
+/// All of them, the one of the default features first.
+const DISPLAYS: [Display; 4] = [
+    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0) },
+    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0) },
+    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26) },
+    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0) },
+];
+/// What the checks draw: the emulator does some ten million cycles a second, if nothing else runs.
+const SMALL: (u16, u16) = (60, 45);
+/// How frames get to the display.
+const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
+/// Sending by DMA may add this to tracing.
+const SENDING: f64 = 0.03;
+
+const USAGE: &str = "\
+cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
+                         [--display DISPLAY]
+    scenes are showcase, limit, raystones and ftb; the size is 60x45 unless given, at most the
+    display's; ways are bands (by DMA, the default), graphics (embedded-graphics) and trace
+    (nothing is sent); displays are st7789-240x240, the default, st7789-240x320, st7735s-160x80
+    and ili9341-320x240";
+
+/// A frame to emulate.
+struct Order<'a> {
+    display: &'a Display,
+    job: Job,
+    way: &'a str,
+}
+
+/// What came of it.
+struct Frame {
+    /// The display's memory.
+    memory: Vec<u8>,
+    cycles: u64,
+    /// The emulator's line.
+    line: String,
+}
+
+/// The command: draws a scene, writes what the display shows, compares, and says what it took.
+pub(crate) fn run(words: &[&str]) -> Result<(), String> {
+    let mut scene = SceneName::Showcase;
+    let (mut size, mut way, mut file, mut display) = (Some(SMALL), WAYS[0], None, &DISPLAYS[0]);
+    let (pairs, rest) = words.as_chunks::<2>();
+    if !rest.is_empty() {
+        return Err(USAGE.into());
+    }
+    for &[option, value] in pairs {
+        match option {
+            "--scene" => {
+                scene = *SceneName::ALL.iter().find(|s| s.name() == value).ok_or(USAGE)?;
+            }
+            "--size" if value == "full" => size = None,
+            "--size" => {
+                let (width, height) = value.split_once('x').ok_or(USAGE)?;
+                let side = |text: &str| text.parse::<u16>().ok().filter(|&n| n > 0).ok_or(USAGE);
+                size = Some((side(width)?, side(height)?));
+            }
+            "--display" => display = DISPLAYS.iter().find(|d| d.name == value).ok_or(USAGE)?,
+            "--way" => way = *WAYS.iter().find(|&&way| way == value).ok_or(USAGE)?,
+            "-o" => file = Some(PathBuf::from(value)),
+            _ => return Err(USAGE.into()),
+        }
+    }
+    let size = size.unwrap_or(display.size);
+    if size.0 > display.size.0 || size.1 > display.size.1 {
+        return Err(USAGE.into());
+    }
+    setup::run()?;
+    let image = build(display)?;
+    let order = Order { display, job: job(scene, size), way };
+    let frame = emulate(&image, &order)?;
+    if let Some(file) = file {
+        png(&file, display, &frame.memory)?;
+    }
+    let record = Record::new(&frame.line);
+    let pixels = u64::from(size.0) * u64::from(size.1);
+    println!(
+        "{} cycles, {} a pixel, {:.1} ms at 125 MHz (emulated, without flash-cache misses)",
+        frame.cycles,
+        frame.cycles / pixels,
+        frame.cycles as f64 / 125e3
+    );
+    println!(
+        "{} bytes sent; {} bytes of RAM free; {} cycles from reset to the frame",
+        record.get("bytes")?,
+        record.get("stack_free")?,
+        record.get("boot")?
+    );
+    let sizes = elf::sizes(&image)?;
+    println!("image: {} bytes of code, {} of constants", sizes.text, sizes.constants);
+    compare(&order, &frame)?;
+    if way != "trace" {
+        println!("the picture is the host's, to the bit");
+    }
+    Ok(())
+}
+
+/// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
+/// the sending.
+pub(crate) fn check(report: &mut Report) {
+    let job = job(SceneName::Limit, SMALL);
+    let mut cycles = Vec::new();
+    for (display, ways) in [(&DISPLAYS[0], &WAYS[..]), (&DISPLAYS[2], &WAYS[..1])] {
+        let name = format!("Pico with {}: the image is built", display.name);
+        let Some(image) = report.check(&name, || build(display)) else { continue };
+        for &way in ways {
+            let name = format!("Pico with {} (rp2040py): {job} by {way}", display.name);
+            cycles.extend(report.check(&name, || {
+                let order = Order { display, job, way };
+                let frame = emulate(&image, &order)?;
+                compare(&order, &frame)?;
+                Ok(frame.cycles)
+            }));
+        }
+    }
+    // Of the first display; all or none.
+    if let &[bands, _, trace, _] = cycles.as_slice() {
+        report.check("Pico: DMA sends while the core traces", || {
+            let more = bands as f64 / trace as f64 - 1.0;
+            let line =
+                format!("{bands} cycles, of which tracing {trace}: {:.2} % more", 100.0 * more);
+            println!("     {line}");
+            if more <= SENDING { Ok(()) } else { Err(line) }
+        });
+    }
+}
+
+fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
+    Job { scene, arith: ArithName::Fixed, width, height }
+}
+
+fn build(display: &Display) -> Result<PathBuf, String> {
+    let features = format!("{},rtt", display.name);
+    let more = ["--no-default-features", "--features", &features];
+    machine::build_with(&boards().join("pico"), "pico", TARGET, &more)
+}
+
+/// Runs the image until the frame is drawn.
+fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
+    let dump = image.with_extension("rgb565");
+    // A picture from before proves nothing.
+    let _ = std::fs::remove_file(&dump);
+    let mut python = Command::new(setup::python()?);
+    // Nothing is to be written into the sources.
+    python.arg("-B").arg(boards().join("pico/emulate/emulate.py")).arg(image);
+    python.arg(format!("{} {}", order.job, order.way));
+    let Display { size, offset, .. } = order.display;
+    python.args([size.0, size.1, offset.0, offset.1].map(|n| n.to_string())).arg(&dump);
+    let text = output(&mut python)?;
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("frame "))
+        .ok_or("the emulator says nothing of a frame")?
+        .to_owned();
+    let cycles = Record::new(&line).number("cycles")?;
+    let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
+    Ok(Frame { memory, cycles, line })
+}
+
+/// What the display is to hold: the picture in the upper left corner of black, or just that.
+fn expected(order: &Order<'_>) -> Vec<u8> {
+    let Job { scene, width, height, .. } = order.job;
+    let line = |width: u16| usize::from(width) * rgb565::BYTES;
+    let (across, down) = order.display.size;
+    let mut memory = vec![0; line(across) * usize::from(down)];
+    if order.way != "trace" {
+        let mut picture = vec![0; line(width) * usize::from(height)];
+        rgb565::draw(scene, width, height, &mut picture);
+        let rows = memory.chunks_exact_mut(line(across));
+        for (row, traced) in rows.zip(picture.chunks_exact(line(width))) {
+            row[..traced.len()].copy_from_slice(traced);
+        }
+    }
+    memory
+}
+
+fn compare(order: &Order<'_>, frame: &Frame) -> Result<(), String> {
+    let expected = expected(order);
+    let (here, _) = expected.as_chunks::<{ rgb565::BYTES }>();
+    let (there, _) = frame.memory.as_chunks::<{ rgb565::BYTES }>();
+    if here.len() != there.len() {
+        return Err(format!("{} pixels instead of {}", there.len(), here.len()));
+    }
+    let wrong: Vec<_> = (0..here.len()).filter(|&i| here[i] != there[i]).collect();
+    match wrong.first() {
+        None => Ok(()),
+        Some(&i) => Err(format!(
+            "{} of {} pixels differ; the first, at ({}, {}), is {:02x?}, on the host {:02x?}",
+            wrong.len(),
+            here.len(),
+            i % usize::from(order.display.size.0),
+            i / usize::from(order.display.size.0),
+            there[i],
+            here[i]
+        )),
+    }
+}
+
+/// Writes the display's memory as a PNG.
+fn png(path: &Path, display: &Display, memory: &[u8]) -> Result<(), String> {
+    let rgb: Vec<u8> = memory
+        .as_chunks::<{ rgb565::BYTES }>()
+        .0
+        .iter()
+        .flat_map(|&bytes| {
+            let color = Rgb888::from(Rgb565::from(RawU16::new(u16::from_be_bytes(bytes))));
+            [color.r(), color.g(), color.b()]
+        })
+        .collect();
+    let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let file = File::create(path).map_err(|error| place(&error))?;
+    let (width, height) = (u32::from(display.size.0), u32::from(display.size.1));
+    let mut encoder = png::Encoder::new(BufWriter::new(file), width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&rgb).and_then(|()| writer.finish()))
+        .map_err(|error| place(&error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DISPLAYS, Frame, Order, WAYS, compare, expected, job};
+    use whitted_demo::job::SceneName;
+
+    #[test]
+    fn one_wrong_bit_is_found() {
+        let display = &DISPLAYS[0];
+        let order = Order { display, job: job(SceneName::Limit, (8, 6)), way: WAYS[0] };
+        let mut frame = Frame { memory: expected(&order), cycles: 0, line: String::new() };
+        assert!(frame.memory.iter().any(|&byte| byte != 0));
+        assert_eq!(compare(&order, &frame), Ok(()));
+        // The second pixel of the second row.
+        frame.memory[(usize::from(display.size.0) + 1) * 2 + 1] ^= 1;
+        let error = compare(&order, &frame).unwrap_err();
+        assert!(error.starts_with("1 of 57600 pixels differ; the first, at (1, 1)"), "{error}");
+        frame.memory.pop();
+        frame.memory.pop();
+        assert!(compare(&order, &frame).is_err());
+    }
+}
