@@ -327,7 +327,10 @@ fn frames() {
 #[test]
 fn building_trees() {
     let balls: Vec<_> = (0..40)
-        .map(|i| Extent::Sphere { center: [i << 18, i % 7 << 17, i % 5 << 17], radius: 1 << 15 })
+        .map(|i| Extent::Sphere {
+            center: [i << 18, (i % 7) << 17, (i % 5) << 17],
+            radius: 1 << 15,
+        })
         .collect();
     let build = |extents: &[Extent], words: usize, scratch: usize| {
         let (mut words, mut scratch) = (vec![0; words], vec![0; scratch]);

@@ -6,7 +6,7 @@
 use super::FromF64;
 use super::random::Random;
 use whitted::math::{Fixed, Rgb};
-use whitted::octree::{Built, Cube, Extent, Limits, Octree, TreeError, build_into};
+use whitted::octree::{BuildError, Built, Cube, Extent, Limits, Octree, TreeError, build_into};
 use whitted::scene::{
     Ambient, Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts,
 };
@@ -75,13 +75,18 @@ impl<A: Make> Shapes<A> {
 
     /// Builds the tree, at run time.
     pub fn grow(&mut self, limits: Limits) -> Built {
+        self.try_grow(limits).expect("a tree")
+    }
+
+    /// The same where it may not be possible.
+    pub fn try_grow(&mut self, limits: Limits) -> Result<Built, BuildError> {
         let extents = A::extents(self);
         let (mut words, mut scratch) = (vec![0; 1 << 17], vec![0; 1 << 17]);
-        let built = build_into(&extents, &mut words, &mut scratch, limits).expect("a tree");
+        let built = build_into(&extents, &mut words, &mut scratch, limits)?;
         words.truncate(built.words);
         self.words = words;
         self.cube = Some(built.cube);
-        built
+        Ok(built)
     }
 
     /// How many there are besides planes.
