@@ -93,12 +93,7 @@ fn search<A: Arithmetic, T: Tally>(
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
         return search.found;
     }
-    for id in parts.spheres.len() as u32..scene.bounded {
-        if search.test_any(id) {
-            return Some(id);
-        }
-    }
-    None
+    (parts.spheres.len() as u32..scene.bounded).find(|&id| search.test_any(id))
 }
 
 /// The number of any shape along the ray nearer than `limit`.
