@@ -1,12 +1,14 @@
-//! What this repository needs done to it: `cargo xtask setup`, `test` and `bench`.
+//! What this repository needs done to it: `cargo xtask setup`, `test`, `bench` and comparisons.
 
 mod bench;
+mod compare;
 mod elf;
 mod firmware;
 mod lint;
 mod machine;
 mod nopanic;
 mod oled;
+mod pov;
 mod report;
 mod setup;
 mod shell;
@@ -21,7 +23,11 @@ cargo xtask test [--only GROUP]…           set up and run every check, or thos
                                            lint, host, nopanic, boards
 cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
                                            --check compares with it instead
-cargo xtask nopanic                        the no-panic proof alone, naming culprits";
+cargo xtask nopanic                        the no-panic proof alone, naming culprits
+cargo xtask pov SCENE [-o FILE] [--size WxH]
+                                           write a scene in POV-Ray's language
+cargo xtask compare A.png B.png [-o FILE]  how far two pictures are apart; FILE shows where,
+                                           eight times enlarged";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -31,6 +37,8 @@ fn main() -> ExitCode {
         ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
         ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
+        ["pov", words @ ..] => pov::run(words),
+        ["compare", words @ ..] => compare::run(words),
         _ => Err(USAGE.into()),
     };
     match done {
