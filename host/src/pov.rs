@@ -1,16 +1,20 @@
 //! A document in POV-Ray's language, to compare pictures with.
 //!
-//! What POV-Ray has no words for, and so differs: light always passes through what transmits
-//! (here glass casts full shadow unless its material says otherwise); transmission has one
-//! coefficient for all channels (the mean is written); there is no specular cosine, and no
-//! shape that shows its inside alone. The weakening of lights is POV-Ray's own formula, with a
-//! fade distance so small that it is 1/r² to four digits.
+//! POV-Ray lets light through whatever transmits. Where a material says that it blocks light, the
+//! shape lets all of it through instead, and a twin that only shadow rays see blocks it.
+//!
+//! What POV-Ray has no words for, and so differs: a surface that is both coloured and transmits
+//! has one coefficient of transmission for all channels (the mean is written); a highlight has
+//! the mean of its channels; neither a specular cosine nor a highlight's cosine; no shape that
+//! shows its inside alone; at total reflection the ray carries the transmission alone. The
+//! weakening of lights is POV-Ray's own formula, with a fade distance so small that it is 1/r² to
+//! four digits.
 
 use std::fmt::{self, Write as _};
 
 use crate::document::{
-    Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Material, Point, Size,
-    cross, dot, length, normalized, scaled, sub,
+    Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Material, Point,
+    ShadowThrough, Size, cross, dot, length, normalized, scaled, sub,
 };
 
 /// The scene for pictures of a size, whose proportions the camera has.
@@ -75,7 +79,14 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
         body(&shape.body, out)?;
         let index = shape.material;
         let ior = material.index_behind / material.index_front;
-        writeln!(out, " texture {{ T{index} }} interior {{ ior {ior} }} }}")?;
+        let shadow = material.shadow;
+        let twin = shadow == ShadowThrough::Opaque && material.transmits();
+        let mark = if twin || shadow == ShadowThrough::None { " no_shadow" } else { "" };
+        writeln!(out, " texture {{ T{index} }} interior {{ ior {ior} }}{mark} }}")?;
+        if twin {
+            body(&shape.body, out)?;
+            writeln!(out, " pigment {{ rgb 0 }} hollow no_image no_reflection }}")?;
+        }
     }
     Ok(())
 }
@@ -131,17 +142,22 @@ fn light(light: &Light, document: &Document, out: &mut String) -> fmt::Result {
 /// The texture of a material, without its pattern.
 fn texture(document: &Document, index: usize) -> String {
     let m: &Material = &document.materials[index];
-    let transmit = (m.transmission[0] + m.transmission[1] + m.transmission[2]) / 3.0;
-    // POV-Ray dims a surface's own colour by what it transmits; ours doesn't.
-    let own = 1.0 / (1.0 - transmit).max(1e-3);
-    let color = scaled(m.diffuse, own);
+    let mean = (m.transmission[0] + m.transmission[1] + m.transmission[2]) / 3.0;
+    let largest = m.transmission.into_iter().fold(0.0, f64::max);
+    let (color, through) = if m.diffuse == [0.0; 3] && largest > 0.0 {
+        // A filter transmits in the pigment's colour, which nothing else needs here.
+        (scaled(m.transmission, 1.0 / largest), format!("filter {largest}"))
+    } else {
+        // POV-Ray dims a surface's own colour by what it transmits; ours doesn't.
+        (scaled(m.diffuse, 1.0 / (1.0 - mean).max(1e-3)), format!("transmit {mean}"))
+    };
     let ambient = [0, 1, 2].map(|i| {
         let light = m.ambient[i] * document.ambient[i];
         if m.diffuse[i] > 0.0 { light / m.diffuse[i] } else { 0.0 }
     });
     let phong = (m.specular[0] + m.specular[1] + m.specular[2]) / 3.0;
     format!(
-        "texture {{ pigment {{ rgb {} transmit {transmit} }} finish {{ ambient rgb {} diffuse 1 \
+        "texture {{ pigment {{ rgb {} {through} }} finish {{ ambient rgb {} diffuse 1 \
          phong {phong} phong_size {} reflection {{ rgb {} }} }} }}",
         V(color),
         V(ambient),

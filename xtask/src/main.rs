@@ -1,6 +1,8 @@
-//! What this repository needs done to it: `cargo xtask setup`, `test`, `bench` and `emulate`.
+//! What this repository needs done to it: `cargo xtask setup`, `test`, `bench`, `emulate` and
+//! comparisons.
 
 mod bench;
+mod compare;
 mod elf;
 mod firmware;
 mod lint;
@@ -8,6 +10,7 @@ mod machine;
 mod nopanic;
 mod oled;
 mod pico;
+mod pov;
 mod report;
 mod setup;
 mod shell;
@@ -24,7 +27,11 @@ cargo xtask bench [--check] [--machine M]  count on the emulated boards and writ
                                            --check compares with it instead
 cargo xtask emulate pico [OPTION]…         run the Pico's image and save what its display shows;
                                            --help names the options
-cargo xtask nopanic                        the no-panic proof alone, naming culprits";
+cargo xtask nopanic                        the no-panic proof alone, naming culprits
+cargo xtask pov SCENE [-o FILE] [--size WxH]
+                                           write a scene in POV-Ray's language
+cargo xtask compare A.png B.png [-o FILE]  how far two pictures are apart; FILE shows where,
+                                           eight times enlarged";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -35,6 +42,8 @@ fn main() -> ExitCode {
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
         ["emulate", "pico", options @ ..] => pico::run(options),
         ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
+        ["pov", words @ ..] => pov::run(words),
+        ["compare", words @ ..] => compare::run(words),
         _ => Err(USAGE.into()),
     };
     match done {
