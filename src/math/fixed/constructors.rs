@@ -245,7 +245,9 @@ pub(crate) const fn sum(x: f64) -> I16F16 {
 
 /// A coordinate, in range or not, in steps of the grid.
 pub(crate) const fn grid(x: f64, _log2_step: i8) -> i32 {
-    round(x * 65536.0) as i32
+    // No shape reaches farther; a corner that is computed back from a needle of a triangle can.
+    let x = if x > 1024.0 { 1024.0 } else { x };
+    round(if x < -1024.0 { -1024.0 } else { x } * 65536.0) as i32
 }
 
 /// A coordinate in steps of the octree's grid, which for fixed point are its own steps.
