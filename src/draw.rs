@@ -3,7 +3,7 @@
 use crate::frame::{Dither, FrameError, Output, Pixel, Renderer, Settings};
 use crate::frame::{Gray1, Gray4, Gray8, Rgb565, Rgb888};
 use crate::math::{Arithmetic, Rgb};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Scene, uses};
 use crate::tally::Tally;
 use crate::trace::Work;
 use core::cell::Cell;
@@ -73,23 +73,32 @@ impl Color for eg::BinaryColor {
 /// `Image::new(&picture, position).draw(&mut display)`.
 ///
 /// Only what the target's bounding box shows is traced, in one contiguous fill.
-pub struct Picture<'a, A: Arithmetic, C, const MAX_DEPTH: usize, T = ()> {
+pub struct Picture<
+    'a,
+    A: Arithmetic,
+    C,
+    const MAX_DEPTH: usize,
+    T = (),
+    const USES: u64 = { uses::ALL },
+> {
     /// Drawing borrows the picture, tracing changes the working memory: it is taken out for the
     /// time and put back.
-    renderer: Cell<Option<Renderer<'a, A, MAX_DEPTH, T>>>,
+    renderer: Cell<Option<Renderer<'a, A, MAX_DEPTH, T, USES>>>,
     settings: Settings,
     output: Output,
     color: PhantomData<C>,
 }
 
-impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize> Picture<'a, A, C, MAX_DEPTH> {
+impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, const USES: u64>
+    Picture<'a, A, C, MAX_DEPTH, (), USES>
+{
     /// A picture of a scene in sRGB. `samples` is memory for
     /// [`Sampling::samples`](crate::frame::Sampling::samples) radiances.
     ///
     /// # Errors
     /// A size, depth or memory that doesn't fit.
     pub fn new(
-        scene: &'a Scene<'a, A>,
+        scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
@@ -100,11 +109,11 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize> Picture<'a, A, C, MAX_
     }
 }
 
-impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally>
-    Picture<'a, A, C, MAX_DEPTH, T>
+impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: u64>
+    Picture<'a, A, C, MAX_DEPTH, T, USES>
 {
     /// A picture of what a renderer renders.
-    pub fn from_renderer(renderer: Renderer<'a, A, MAX_DEPTH, T>, output: Output) -> Self {
+    pub fn from_renderer(renderer: Renderer<'a, A, MAX_DEPTH, T, USES>, output: Output) -> Self {
         let settings = *renderer.settings();
         Self { renderer: Cell::new(Some(renderer)), settings, output, color: PhantomData }
     }
@@ -117,7 +126,7 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally>
     }
 
     /// The renderer, with what it has counted.
-    pub fn into_renderer(self) -> Option<Renderer<'a, A, MAX_DEPTH, T>> {
+    pub fn into_renderer(self) -> Option<Renderer<'a, A, MAX_DEPTH, T, USES>> {
         self.renderer.into_inner()
     }
 
@@ -150,16 +159,16 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally>
     }
 }
 
-impl<A: Arithmetic, C, const MAX_DEPTH: usize, T> OriginDimensions
-    for Picture<'_, A, C, MAX_DEPTH, T>
+impl<A: Arithmetic, C, const MAX_DEPTH: usize, T, const USES: u64> OriginDimensions
+    for Picture<'_, A, C, MAX_DEPTH, T, USES>
 {
     fn size(&self) -> Size {
         Size::new(u32::from(self.settings.width), u32::from(self.settings.height))
     }
 }
 
-impl<A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally> ImageDrawable
-    for Picture<'_, A, C, MAX_DEPTH, T>
+impl<A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: u64> ImageDrawable
+    for Picture<'_, A, C, MAX_DEPTH, T, USES>
 {
     type Color = C;
 

@@ -4,7 +4,9 @@ use super::{Output, Pixel, Renderer, Settings};
 use crate::math::Arithmetic;
 use crate::tally::Tally;
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'_, A, MAX_DEPTH, T> {
+impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
+    Renderer<'_, A, MAX_DEPTH, T, USES>
+{
     /// Fills `bytes` with the rows from `y` on, as many as fit wholly; returns how many rows, 0
     /// below the picture's end. With two buffers, one is sent while the other is filled.
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::{FrameError, Output, Pixel, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
-use crate::scene::{Camera, Row, Scene, View};
+use crate::scene::{Camera, Row, Scene, View, uses};
 use crate::shape::Ray;
 use crate::tally::Tally;
 use crate::trace::{Tracer, Work};
@@ -23,8 +23,14 @@ struct Remembered {
 /// Rows may be asked for in any order and as often as one likes, each gives the same radiances;
 /// from top to bottom is the cheapest.
 #[derive(Debug)]
-pub struct Renderer<'a, A: Arithmetic, const MAX_DEPTH: usize, T = ()> {
-    tracer: Tracer<'a, A>,
+pub struct Renderer<
+    'a,
+    A: Arithmetic,
+    const MAX_DEPTH: usize,
+    T = (),
+    const USES: u64 = { uses::ALL },
+> {
+    tracer: Tracer<'a, A, USES>,
     view: View<A>,
     settings: Settings,
     work: &'a mut Work<A, MAX_DEPTH>,
@@ -34,14 +40,16 @@ pub struct Renderer<'a, A: Arithmetic, const MAX_DEPTH: usize, T = ()> {
     tally: T,
 }
 
-impl<'a, A: Arithmetic, const MAX_DEPTH: usize> Renderer<'a, A, MAX_DEPTH> {
+impl<'a, A: Arithmetic, const MAX_DEPTH: usize, const USES: u64>
+    Renderer<'a, A, MAX_DEPTH, (), USES>
+{
     /// A renderer that counts nothing. `samples` is memory for [`Sampling::samples`] radiances;
     /// what it holds doesn't matter.
     ///
     /// # Errors
     /// A size, depth or memory that doesn't fit.
     pub fn new(
-        scene: &'a Scene<'a, A>,
+        scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
@@ -51,13 +59,15 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize> Renderer<'a, A, MAX_DEPTH> {
     }
 }
 
-impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'a, A, MAX_DEPTH, T> {
+impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
+    Renderer<'a, A, MAX_DEPTH, T, USES>
+{
     /// A renderer that reports to `tally`.
     ///
     /// # Errors
     /// A size, depth or memory that doesn't fit.
     pub fn with_tally(
-        scene: &'a Scene<'a, A>,
+        scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
@@ -110,7 +120,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'a, A, MAX_DE
     /// Traces the pixels of an area, row by row, as they are taken; what of it lies outside the
     /// picture is left out.
     #[inline(always)]
-    pub fn scan(&mut self, columns: Range<u16>, rows: Range<u16>) -> Scan<'_, 'a, A, MAX_DEPTH, T> {
+    pub fn scan(
+        &mut self,
+        columns: Range<u16>,
+        rows: Range<u16>,
+    ) -> Scan<'_, 'a, A, MAX_DEPTH, T, USES> {
         let columns = columns.start..columns.end.min(self.settings.width);
         let rows = rows.start..rows.end.min(self.settings.height);
         let row = self.view.row(rows.start, 128);
@@ -148,8 +162,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Renderer<'a, A, MAX_DE
 
 /// The pixels of an area, traced as they are taken: column, row, radiance.
 #[derive(Debug)]
-pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T> {
-    renderer: &'r mut Renderer<'a, A, MAX_DEPTH, T>,
+pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, const USES: u64> {
+    renderer: &'r mut Renderer<'a, A, MAX_DEPTH, T, USES>,
     columns: Range<u16>,
     /// The current row and the end.
     rows: Range<u16>,
@@ -160,7 +174,9 @@ pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T> {
     begun: bool,
 }
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Scan<'_, '_, A, MAX_DEPTH, T> {
+impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
+    Scan<'_, '_, A, MAX_DEPTH, T, USES>
+{
     /// Goes to the start of the next row; `false` below the last.
     #[inline(always)]
     fn next_row(&mut self) -> bool {
@@ -241,7 +257,9 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Scan<'_, '_, A, MAX_DEPTH,
     }
 }
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally> Iterator for Scan<'_, '_, A, MAX_DEPTH, T> {
+impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
+    for Scan<'_, '_, A, MAX_DEPTH, T, USES>
+{
     type Item = (u16, u16, Rgb<A::Radiance>);
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! What a ray that hits nothing sees.
 
+use super::uses::{self, has};
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic, rgb};
 use crate::shape::{ShapeError, ok_or_panic, some_or, unit_vector};
 
@@ -25,13 +26,14 @@ impl<A: Arithmetic> Background<A> {
     pub const BLACK: Self = Self::Uniform([A::BLACK; 3]);
 
     #[inline(always)]
-    pub(crate) fn radiance(&self, direction: &[A::Unit; 3]) -> Rgb<A::Radiance> {
+    pub(crate) fn radiance<const USES: u64>(&self, direction: &[A::Unit; 3]) -> Rgb<A::Radiance> {
         match self {
             Self::Uniform(radiance) => *radiance,
-            Self::Gradient { up, middle, slope } => {
+            Self::Gradient { up, middle, slope } if has(USES, uses::GRADIENT) => {
                 let height = A::dot(direction, up);
                 rgb(middle, slope, |m, s| A::ramp(m, s, height))
             }
+            Self::Gradient { .. } => [A::BLACK; 3],
         }
     }
 }

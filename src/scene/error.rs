@@ -20,6 +20,11 @@ pub enum SceneError {
         /// The number of shapes that the tree is over.
         shapes: u32,
     },
+    /// A tailored scene uses what it said it doesn't.
+    Uses {
+        /// The bits of [`uses`](super::uses) that are missing.
+        missing: u64,
+    },
 }
 
 impl SceneError {
@@ -29,6 +34,7 @@ impl SceneError {
             Self::Material { .. } => "a shape or a pattern names a material that isn't there",
             Self::Edges { .. } => "a polygon names edges that aren't there",
             Self::Tree { .. } => "the octree is over another number of shapes",
+            Self::Uses { .. } => "the scene uses what its type says it doesn't",
         }
     }
 }
@@ -44,6 +50,9 @@ impl fmt::Display for SceneError {
             }
             Self::Tree { shapes } => {
                 write!(f, "the octree is over {shapes} shapes, the scene has another number")
+            }
+            Self::Uses { missing } => {
+                write!(f, "the scene uses {missing:#x}, which its type says it doesn't")
             }
         }
     }

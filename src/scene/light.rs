@@ -1,5 +1,6 @@
 //! Lights: what a point sees of each.
 
+use super::uses::{self, has};
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic, neg, sub};
 use crate::shape::{ShapeError, ok_or_panic, point, some_or, unit_vector};
 
@@ -61,7 +62,7 @@ pub struct Light<A: Arithmetic> {
     intensity: A::Intensity,
     /// The channels, relative to the largest.
     pub(crate) color: Rgb<A::Weight>,
-    falloff: Falloff,
+    pub(crate) falloff: Falloff,
 }
 
 /// Where the light comes from.
@@ -95,23 +96,28 @@ pub(crate) struct Incident<A: Arithmetic> {
 impl<A: Arithmetic> Light<A> {
     /// What the point `p` gets; `None` outside a spot's cone.
     #[inline(always)]
-    pub(crate) fn at(&self, p: &[A::Length; 3]) -> Option<Incident<A>> {
+    pub(crate) fn at<const USES: u64>(&self, p: &[A::Length; 3]) -> Option<Incident<A>> {
         let position = match &self.source {
-            Source::Directional { direction } => {
+            Source::Directional { direction } if has(USES, uses::DIRECTIONAL_LIGHTS) => {
                 return Some(Incident {
                     direction: *direction,
                     distance: A::FAR,
                     irradiance: A::constant(&self.intensity),
                 });
             }
+            Source::Directional { .. } => return None,
             Source::Point { position } | Source::Spot { position, .. } => position,
         };
         let (direction, distance, inverse) = A::normalize(&sub(position, p));
         let mut irradiance = match self.falloff {
-            Falloff::InverseSquare => A::falloff(&self.intensity, &inverse),
-            Falloff::None => A::constant(&self.intensity),
+            Falloff::InverseSquare if has(USES, uses::INVERSE_SQUARE) => {
+                A::falloff(&self.intensity, &inverse)
+            }
+            _ => A::constant(&self.intensity),
         };
-        if let Source::Spot { axis, cos_outer, width, .. } = &self.source {
+        if has(USES, uses::SPOTS)
+            && let Source::Spot { axis, cos_outer, width, .. } = &self.source
+        {
             let inside = A::cosine(&direction, axis) - *cos_outer;
             if inside <= A::NO_WEIGHT {
                 return None;

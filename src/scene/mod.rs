@@ -31,6 +31,7 @@ mod error;
 mod light;
 mod material;
 mod shapes;
+pub mod uses;
 
 pub use background::Background;
 pub use camera::{Camera, Row, View};
@@ -45,6 +46,7 @@ use crate::math::{Arithmetic, Rgb};
 use crate::octree::Octree;
 use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, PolygonEdge};
 use crate::shape::{SmoothTriangle, Sphere, Triangle};
+use uses::has;
 
 /// The ambient irradiance E_amb divided by π, the same in the whole scene.
 #[derive(Clone, Copy, Debug)]
@@ -149,8 +151,10 @@ impl<A: Arithmetic> Parts<'_, A> {
 }
 
 /// A scene that has been checked: what rays are traced in.
+///
+/// `USES` says what it may hold: anything, by default (see [`uses`]).
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, A: Arithmetic> {
+pub struct Scene<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(crate) parts: Parts<'a, A>,
     /// All materials stop shadow rays, so that a shadow ray may end at the first hit.
     pub(crate) opaque_shadows: bool,
@@ -164,6 +168,25 @@ impl<'a, A: Arithmetic> Scene<'a, A> {
     /// # Errors
     /// What doesn't fit together.
     pub const fn new(parts: Parts<'a, A>) -> Result<Self, SceneError> {
+        Self::try_tailored(parts)
+    }
+
+    /// The same for scenes in `static`s: a mistake doesn't compile.
+    ///
+    /// # Panics
+    /// Where [`new`](Self::new) has an error.
+    pub const fn checked(parts: Parts<'a, A>) -> Self {
+        Self::tailored(parts)
+    }
+}
+
+impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
+    /// Checks the parts of a scene that uses no more than its type says, which
+    /// [`Parts::uses`] tells.
+    ///
+    /// # Errors
+    /// What doesn't fit together, or isn't in `USES`.
+    pub const fn try_tailored(parts: Parts<'a, A>) -> Result<Self, SceneError> {
         if let Err(error) = shapes::check(&parts) {
             return Err(error);
         }
@@ -186,15 +209,19 @@ impl<'a, A: Arithmetic> Scene<'a, A> {
             }
             i += 1;
         }
+        let missing = parts.uses() & !USES;
+        if missing != 0 {
+            return Err(SceneError::Uses { missing });
+        }
         Ok(Self { parts, opaque_shadows, bounded: parts.bounded() })
     }
 
     /// The same for scenes in `static`s: a mistake doesn't compile.
     ///
     /// # Panics
-    /// Where [`new`](Self::new) has an error.
-    pub const fn checked(parts: Parts<'a, A>) -> Self {
-        match Self::new(parts) {
+    /// Where [`try_tailored`](Self::try_tailored) has an error.
+    pub const fn tailored(parts: Parts<'a, A>) -> Self {
+        match Self::try_tailored(parts) {
             Ok(scene) => scene,
             Err(error) => panic!("{}", error.message()),
         }
@@ -213,6 +240,9 @@ impl<'a, A: Arithmetic> Scene<'a, A> {
         p: &[A::Length; 3],
     ) -> Option<&'a Material<A>> {
         let material = self.parts.materials.get(id.index())?;
+        if !has(USES, uses::PATTERNS) {
+            return Some(material);
+        }
         match &material.pattern {
             Some(pattern) if pattern.odd(p) => self.parts.materials.get(usize::from(pattern.other)),
             _ => Some(material),

@@ -8,43 +8,60 @@ use crate::shape::MaterialId;
 /// Evaluates `$body` with `$shape` bound to the shape of number `$id`, whatever its kind; `$none`
 /// where there is no such shape. The slices' own bounds checks are what finds the kind.
 macro_rules! with_shape {
-    ($parts:expr, $id:expr, $shape:ident => $body:expr, $none:expr) => {{
+    ($uses:expr, $parts:expr, $id:expr, $shape:ident => $body:expr, $none:expr) => {{
+        use $crate::scene::uses::{self, has};
         let parts = $parts;
         let index = $id as usize;
         if let Some($shape) = parts.spheres.get(index) {
             $body
         } else {
             let index = index.wrapping_sub(parts.spheres.len());
-            if let Some($shape) = parts.triangles.get(index) {
+            if has($uses, uses::TRIANGLES)
+                && let Some($shape) = parts.triangles.get(index)
+            {
                 $body
             } else {
                 let index = index.wrapping_sub(parts.triangles.len());
-                if let Some($shape) = parts.smooth_triangles.get(index) {
+                if has($uses, uses::SMOOTH_TRIANGLES)
+                    && let Some($shape) = parts.smooth_triangles.get(index)
+                {
                     $body
                 } else {
                     let index = index.wrapping_sub(parts.smooth_triangles.len());
-                    if let Some(polygon) = parts.polygons.get(index) {
+                    if has($uses, uses::POLYGONS)
+                        && let Some(polygon) = parts.polygons.get(index)
+                    {
                         let $shape = &polygon.view(parts.edges);
                         $body
                     } else {
                         let index = index.wrapping_sub(parts.polygons.len());
-                        if let Some($shape) = parts.cuboids.get(index) {
+                        if has($uses, uses::CUBOIDS)
+                            && let Some($shape) = parts.cuboids.get(index)
+                        {
                             $body
                         } else {
                             let index = index.wrapping_sub(parts.cuboids.len());
-                            if let Some($shape) = parts.discs.get(index) {
+                            if has($uses, uses::DISCS)
+                                && let Some($shape) = parts.discs.get(index)
+                            {
                                 $body
                             } else {
                                 let index = index.wrapping_sub(parts.discs.len());
-                                if let Some($shape) = parts.cylinders.get(index) {
+                                if has($uses, uses::CYLINDERS)
+                                    && let Some($shape) = parts.cylinders.get(index)
+                                {
                                     $body
                                 } else {
                                     let index = index.wrapping_sub(parts.cylinders.len());
-                                    if let Some($shape) = parts.cones.get(index) {
+                                    if has($uses, uses::CONES)
+                                        && let Some($shape) = parts.cones.get(index)
+                                    {
                                         $body
                                     } else {
                                         let index = index.wrapping_sub(parts.cones.len());
-                                        if let Some($shape) = parts.planes.get(index) {
+                                        if has($uses, uses::PLANES)
+                                            && let Some($shape) = parts.planes.get(index)
+                                        {
                                             $body
                                         } else {
                                             $none

@@ -3,6 +3,7 @@
 use super::visible::visible;
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::octree::WalkStack;
+use crate::scene::uses::{self, has};
 use crate::scene::{Incident, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
@@ -22,8 +23,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
 
 /// Adds what the point sends back along the ray of each light's direct light.
 #[inline(always)]
-pub(super) fn direct<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     mut at: Shading<'_, A>,
     sum: &mut Rgb<A::Radiance>,
     walk: &mut WalkStack<A>,
@@ -34,7 +35,9 @@ pub(super) fn direct<A: Arithmetic, T: Tally>(
     for light in scene.parts.lights {
         let number = index;
         index += 1;
-        let Some(Incident { direction, distance, irradiance }) = light.at(&at.shadow.origin) else {
+        let Some(Incident { direction, distance, irradiance }) =
+            light.at::<USES>(&at.shadow.origin)
+        else {
             continue;
         };
         let cosine = A::cosine(&at.surface.normal, &direction);
@@ -46,12 +49,12 @@ pub(super) fn direct<A: Arithmetic, T: Tally>(
         let Some(share) = visible(scene, &at.shadow, distance, walk, tally) else { continue };
         let diffuse = at.material.diffuse;
         let mut factor = diffuse.map(|k| A::weight(k, cosine));
-        if at.material.shines {
+        if has(USES, uses::HIGHLIGHTS) && at.material.shines {
             // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
             let lobe = A::cosine(at.mirror, &direction);
             if lobe > A::NO_WEIGHT {
                 let mut highlight = A::power(lobe, &at.material.shininess);
-                if rules.highlight_cosine {
+                if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
                     highlight = A::weight(highlight, cosine);
                 }
                 factor = rgb(&factor, &at.material.specular, |f, k| f + A::weight(k, highlight));
@@ -59,7 +62,8 @@ pub(super) fn direct<A: Arithmetic, T: Tally>(
         }
         let factor = rgb(&factor, &light.color, A::weight);
         let factor = rgb(&factor, at.weight, A::weight);
-        let factor = if scene.opaque_shadows { factor } else { rgb(&factor, &share, A::weight) };
+        let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
+        let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
         let radiance = factor.map(|f| A::dim(irradiance, f));
         tally.term::<A>(Term::Direct { light: number }, &radiance);
         *sum = rgb(sum, &radiance, A::gather);

@@ -4,6 +4,7 @@
 //! kinds here, once, out of line: their code is shared, and the short loops keep the registers.
 
 use crate::math::Arithmetic;
+use crate::scene::uses::{self, has};
 use crate::scene::{Parts, Scene, with_shape};
 use crate::shape::{MaterialId, Meeting, Ray, Shape, Surface};
 
@@ -25,20 +26,20 @@ pub(super) fn meet<A: Arithmetic, S: Shape<A>>(
 
 /// The same for the shape of any number.
 #[inline(never)]
-pub(super) fn meet_any<A: Arithmetic>(
+pub(super) fn meet_any<A: Arithmetic, const USES: u64>(
     parts: &Parts<'_, A>,
     id: u32,
     ray: &Ray<A>,
     coarse: &A::Coarse,
     limit: A::Length,
 ) -> Option<Meeting<A>> {
-    with_shape!(parts, id, shape => meet(shape, id, ray, coarse, limit), None)
+    with_shape!(USES, parts, id, shape => meet(shape, id, ray, coarse, limit), None)
 }
 
 /// The surface and material where the ray met the shape of this number; puts `p` back on it.
 #[inline(always)]
-pub(super) fn surface_at<A: Arithmetic>(
-    scene: &Scene<'_, A>,
+pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     id: u32,
     ray: &Ray<A>,
     meeting: &Meeting<A>,
@@ -47,10 +48,13 @@ pub(super) fn surface_at<A: Arithmetic>(
     let parts = &scene.parts;
     if let Some(sphere) = parts.spheres.get(id as usize) {
         Some((sphere.surface(ray, meeting, p), sphere.material()))
-    } else if let Some(plane) = parts.planes.get(id.wrapping_sub(scene.bounded) as usize) {
+    } else if has(USES, uses::PLANES)
+        && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.bounded) as usize)
+    {
         Some((plane.surface(ray, meeting, p), plane.material()))
     } else {
-        let (surface, material, point) = surface_of_other(parts, id, *ray, *meeting, *p)?;
+        let (surface, material, point) =
+            surface_of_other::<A, USES>(parts, id, *ray, *meeting, *p)?;
         *p = point;
         Some((surface, material))
     }
@@ -58,14 +62,14 @@ pub(super) fn surface_at<A: Arithmetic>(
 
 /// By value: what a reference is taken of can't stay in registers.
 #[inline(never)]
-fn surface_of_other<A: Arithmetic>(
+fn surface_of_other<A: Arithmetic, const USES: u64>(
     parts: &Parts<'_, A>,
     id: u32,
     ray: Ray<A>,
     meeting: Meeting<A>,
     mut p: [A::Length; 3],
 ) -> Option<(Surface<A>, MaterialId, [A::Length; 3])> {
-    with_shape!(parts, id, shape => {
+    with_shape!(USES, parts, id, shape => {
         let surface = shape.surface(&ray, &meeting, &mut p);
         Some((surface, shape.material(), p))
     }, None)

@@ -3,6 +3,7 @@
 use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
+use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Parts, Scene};
 use crate::shape::{Meeting, Ray};
 use crate::tally::Tally;
@@ -31,7 +32,7 @@ impl<A: Arithmetic> Hit<A> {
 }
 
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
-struct Search<'r, 'a, A: Arithmetic, T> {
+struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
     parts: &'r Parts<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
@@ -39,16 +40,16 @@ struct Search<'r, 'a, A: Arithmetic, T> {
     tally: &'r mut T,
 }
 
-impl<A: Arithmetic, T: Tally> Search<'_, '_, A, T> {
+impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     #[inline(always)]
     fn test_any(&mut self, id: u32) {
         self.tally.test();
         let limit = self.best.distance;
-        self.best.take(meet_any(self.parts, id, self.ray, &self.coarse, limit), id);
+        self.best.take(meet_any::<A, USES>(self.parts, id, self.ray, &self.coarse, limit), id);
     }
 }
 
-impl<A: Arithmetic, T: Tally> Visitor<A> for Search<'_, '_, A, T> {
+impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, T, USES> {
     #[inline(always)]
     fn limit(&self) -> A::Length {
         self.best.distance
@@ -76,8 +77,8 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Search<'_, '_, A, T> {
 /// Goes on from the best hit so far with the tree, or with the shapes that no line above tests.
 /// Out of line and by value, so that the short loops keep their numbers in registers.
 #[inline(never)]
-fn search<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+fn search<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     ray: Ray<A>,
     best: Hit<A>,
     walk: &mut WalkStack<A>,
@@ -85,8 +86,10 @@ fn search<A: Arithmetic, T: Tally>(
 ) -> Hit<A> {
     let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search { parts, ray: &ray, coarse, best, tally };
-    if let Some(tree) = &parts.tree {
+    let mut search = Search::<A, T, USES> { parts, ray: &ray, coarse, best, tally };
+    if has(USES, uses::TREE)
+        && let Some(tree) = &parts.tree
+    {
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
     } else {
         for id in parts.spheres.len() as u32..scene.bounded {
@@ -98,8 +101,8 @@ fn search<A: Arithmetic, T: Tally>(
 
 /// The nearest hit in front of `limit`; the lowest number among equals.
 #[inline(always)]
-pub(crate) fn nearest<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
@@ -109,20 +112,22 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally>(
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     // Planes first: their distance bounds the walk.
+    let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.bounded;
-    for plane in parts.planes {
+    for plane in planes {
         tally.test();
         best.take(meet(plane, id, ray, &coarse, best.distance), id);
         id += 1;
     }
-    if parts.tree.is_none() {
+    let tree = has(USES, uses::TREE) && parts.tree.is_some();
+    if !tree {
         let mut id = 0;
         for sphere in parts.spheres {
             tally.test();
             best.take(meet(sphere, id, ray, &coarse, best.distance), id);
             id += 1;
         }
-        if id != scene.bounded {
+        if has_others(USES) && id != scene.bounded {
             best = search(scene, *ray, best, walk, tally);
         }
     } else {

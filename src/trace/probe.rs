@@ -6,7 +6,7 @@ use crate::math::Arithmetic;
 use crate::shape::{Meeting, Ray, Surface};
 use crate::tally::Tally;
 
-impl<A: Arithmetic> Tracer<'_, A> {
+impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
     /// The surface at the nearest hit along a ray, seen from where the ray starts.
     pub fn surface<T: Tally, const MAX_DEPTH: usize>(
         &self,

@@ -11,6 +11,7 @@ use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::WalkStack;
 use crate::scene::Scene;
+use crate::scene::uses::{self, has};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -39,15 +40,15 @@ impl<A: Arithmetic> Path<A> {
 
 /// Traces rays in a scene, to a depth that its memory was made for.
 #[derive(Debug)]
-pub struct Tracer<'a, A: Arithmetic> {
-    pub(super) scene: &'a Scene<'a, A>,
+pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
+    pub(super) scene: &'a Scene<'a, A, USES>,
     depth: u8,
 }
 
-impl<'a, A: Arithmetic> Tracer<'a, A> {
+impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
-    pub fn new(scene: &'a Scene<'a, A>, depth: u8) -> Self {
+    pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
         Self { scene, depth }
     }
 
@@ -77,7 +78,8 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
             let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.walk, tally) {
                 None => {
-                    let background = self.scene.parts.background.radiance(&path.ray.direction);
+                    let background =
+                        self.scene.parts.background.radiance::<USES>(&path.ray.direction);
                     let radiance = rgb(&background, &path.weight, A::dim);
                     tally.term::<A>(Term::Background, &radiance);
                     sum = rgb(&sum, &radiance, A::gather);
@@ -159,13 +161,14 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
         let depth = path.depth + 1;
         let mut reflected = material.reflection;
         let mut transmitted = None;
-        if material.transmits {
+        let glass = has(USES, uses::TRANSMISSION) && material.transmits;
+        if glass {
             let eta = if surface.behind { &material.eta[1] } else { &material.eta[0] };
             let direction = &path.ray.direction;
             match A::refract(direction, &surface.normal, surface.cosine, eta) {
                 Some(direction) => {
                     let mut weight = rgb(&material.transmission, &path.weight, A::weight);
-                    if rules.specular_cosine {
+                    if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                         let cosine = -A::cosine(&surface.normal, &direction);
                         weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
                     }
@@ -186,12 +189,12 @@ impl<'a, A: Arithmetic> Tracer<'a, A> {
                 None => {}
             }
         }
-        if material.reflects
-            || (material.transmits && largest(&reflected) > A::NO_WEIGHT)
-            || (material.transmits && rules.transmitters_reflect)
+        if (has(USES, uses::REFLECTION) && material.reflects)
+            || (glass && largest(&reflected) > A::NO_WEIGHT)
+            || (glass && has(USES, uses::TRANSMITTERS_REFLECT) && rules.transmitters_reflect)
         {
             let mut weight = rgb(&reflected, &path.weight, A::weight);
-            if rules.specular_cosine {
+            if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                 let cosine = A::weight_of(surface.cosine);
                 weight = weight.map(|w| A::weight(w, cosine));
             }

@@ -4,6 +4,7 @@ use super::meet::{meet, meet_any, surface_at};
 use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
+use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Parts, Scene, Shadow};
 use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
@@ -12,7 +13,7 @@ use crate::tally::{RayKind, Tally};
 const MAX_SHEETS: usize = 32;
 
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
-struct Search<'r, 'a, A: Arithmetic, T> {
+struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
     parts: &'r Parts<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
@@ -34,12 +35,12 @@ fn blocks<A: Arithmetic>(
     (ray.leaving.inwards || !left) && sphere.occludes(ray, coarse, left, limit)
 }
 
-impl<A: Arithmetic, T: Tally> Search<'_, '_, A, T> {
+impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     /// Notes whether a shape blocks the ray, and says so.
     #[inline(always)]
     fn test_any(&mut self, id: u32) -> bool {
         self.tally.test();
-        let meeting = meet_any(self.parts, id, self.ray, &self.coarse, self.limit);
+        let meeting = meet_any::<A, USES>(self.parts, id, self.ray, &self.coarse, self.limit);
         self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
     }
 
@@ -52,7 +53,7 @@ impl<A: Arithmetic, T: Tally> Search<'_, '_, A, T> {
     }
 }
 
-impl<A: Arithmetic, T: Tally> Visitor<A> for Search<'_, '_, A, T> {
+impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, T, USES> {
     #[inline(always)]
     fn limit(&self) -> A::Length {
         self.limit
@@ -79,8 +80,8 @@ impl<A: Arithmetic, T: Tally> Visitor<A> for Search<'_, '_, A, T> {
 /// Goes on with the tree, or with the shapes that no line below tests. By value, as in the search
 /// for the nearest hit.
 #[inline(never)]
-fn search<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+fn search<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
@@ -88,8 +89,10 @@ fn search<A: Arithmetic, T: Tally>(
 ) -> Option<u32> {
     let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search { parts, ray: &ray, coarse, limit, found: None, tally };
-    if let Some(tree) = &parts.tree {
+    let mut search = Search::<A, T, USES> { parts, ray: &ray, coarse, limit, found: None, tally };
+    if has(USES, uses::TREE)
+        && let Some(tree) = &parts.tree
+    {
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
         return search.found;
     }
@@ -98,8 +101,8 @@ fn search<A: Arithmetic, T: Tally>(
 
 /// The number of any shape along the ray nearer than `limit`.
 #[inline(always)]
-fn occluder<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
@@ -107,7 +110,8 @@ fn occluder<A: Arithmetic, T: Tally>(
 ) -> Option<u32> {
     let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    if parts.tree.is_none() {
+    let tree = has(USES, uses::TREE) && parts.tree.is_some();
+    if !tree {
         let mut id = 0;
         for sphere in parts.spheres {
             tally.test();
@@ -117,14 +121,15 @@ fn occluder<A: Arithmetic, T: Tally>(
             id += 1;
         }
     }
-    if parts.tree.is_some() || parts.spheres.len() as u32 != scene.bounded {
+    if tree || has_others(USES) && parts.spheres.len() as u32 != scene.bounded {
         let found = search(scene, *ray, limit, walk, tally);
         if found.is_some() {
             return found;
         }
     }
+    let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.bounded;
-    for plane in parts.planes {
+    for plane in planes {
         tally.test();
         if meet(plane, id, ray, &coarse, limit).is_some_and(|m| m.distance < limit) {
             return Some(id);
@@ -136,14 +141,14 @@ fn occluder<A: Arithmetic, T: Tally>(
 
 /// How much of a light comes along the shadow ray from nearer than `limit`; `None` for nothing.
 #[inline(always)]
-pub(super) fn visible<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
-    if !scene.opaque_shadows {
+    if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, walk, tally);
     }
     match occluder(scene, ray, limit, walk, tally) {
@@ -157,8 +162,8 @@ pub(super) fn visible<A: Arithmetic, T: Tally>(
 
 /// The product of the coefficients of transmission along the straight line.
 #[inline(never)]
-fn filtered<A: Arithmetic, T: Tally>(
-    scene: &Scene<'_, A>,
+fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
     mut ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,

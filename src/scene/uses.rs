@@ -1,0 +1,129 @@
+//! What of the library a scene uses, as bits of a const parameter.
+//!
+//! A [`Scene`](super::Scene) of the default, [`ALL`], may hold anything. A scene in a `static` can
+//! name what its own parts use ([`Parts::uses`]); the code for everything else is then not
+//! compiled, which makes it smaller and faster. The picture is the same to the bit.
+//!
+//! ```
+//! use whitted::math::Fixed;
+//! use whitted::scene::{Material, MaterialSpec, Parts, Scene};
+//! use whitted::shape::Sphere;
+//!
+//! const PARTS: Parts<Fixed> = Parts {
+//!     spheres: &[Sphere::<Fixed>::new([0.0, 1.0, 4.0], 1.0, 0)],
+//!     materials: &[Material::<Fixed>::new(MaterialSpec::BLACK)],
+//!     ..Parts::EMPTY
+//! };
+//! static SCENE: Scene<Fixed, { PARTS.uses() }> = Scene::tailored(PARTS);
+//! ```
+
+use super::light::Source;
+use super::{Background, Falloff, Parts, Shadow};
+use crate::math::Arithmetic;
+
+/// Anything.
+pub const ALL: u64 = u64::MAX;
+/// Triangles.
+pub const TRIANGLES: u64 = 1;
+/// Triangles with normals at their corners.
+pub const SMOOTH_TRIANGLES: u64 = 1 << 1;
+/// Polygons.
+pub const POLYGONS: u64 = 1 << 2;
+/// Boxes.
+pub const CUBOIDS: u64 = 1 << 3;
+/// Discs.
+pub const DISCS: u64 = 1 << 4;
+/// Cylinders.
+pub const CYLINDERS: u64 = 1 << 5;
+/// Cones.
+pub const CONES: u64 = 1 << 6;
+/// Planes.
+pub const PLANES: u64 = 1 << 7;
+/// An octree.
+pub const TREE: u64 = 1 << 8;
+/// Patterns.
+pub const PATTERNS: u64 = 1 << 9;
+/// Highlights.
+pub const HIGHLIGHTS: u64 = 1 << 10;
+/// Mirrors.
+pub const REFLECTION: u64 = 1 << 11;
+/// Glass.
+pub const TRANSMISSION: u64 = 1 << 12;
+/// Shadow rays that pass through some surfaces.
+pub const PASSING_SHADOWS: u64 = 1 << 13;
+/// Directional lights.
+pub const DIRECTIONAL_LIGHTS: u64 = 1 << 14;
+/// Spots.
+pub const SPOTS: u64 = 1 << 15;
+/// Lights that fall off with the square of the distance.
+pub const INVERSE_SQUARE: u64 = 1 << 16;
+/// Lights that don't fall off.
+pub const NO_FALLOFF: u64 = 1 << 17;
+/// A background that isn't the same everywhere.
+pub const GRADIENT: u64 = 1 << 18;
+/// [`Rules::specular_cosine`](super::Rules::specular_cosine).
+pub const SPECULAR_COSINE: u64 = 1 << 19;
+/// [`Rules::highlight_cosine`](super::Rules::highlight_cosine).
+pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
+/// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
+pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+
+/// Whether `uses` has all bits of `what`.
+#[inline(always)]
+pub(crate) const fn has(uses: u64, what: u64) -> bool {
+    uses & what == what
+}
+
+/// Whether there may be other bounded shapes than spheres.
+#[inline(always)]
+pub(crate) const fn has_others(uses: u64) -> bool {
+    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+}
+
+const fn bit(wanted: bool, what: u64) -> u64 {
+    if wanted { what } else { 0 }
+}
+
+impl<A: Arithmetic> Parts<'_, A> {
+    /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
+    pub const fn uses(&self) -> u64 {
+        let mut uses = bit(!self.triangles.is_empty(), TRIANGLES)
+            | bit(!self.smooth_triangles.is_empty(), SMOOTH_TRIANGLES)
+            | bit(!self.polygons.is_empty(), POLYGONS)
+            | bit(!self.cuboids.is_empty(), CUBOIDS)
+            | bit(!self.discs.is_empty(), DISCS)
+            | bit(!self.cylinders.is_empty(), CYLINDERS)
+            | bit(!self.cones.is_empty(), CONES)
+            | bit(!self.planes.is_empty(), PLANES)
+            | bit(self.tree.is_some(), TREE)
+            | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
+            | bit(self.rules.specular_cosine, SPECULAR_COSINE)
+            | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)
+            | bit(self.rules.transmitters_reflect, TRANSMITTERS_REFLECT);
+        let mut i = 0;
+        while i < self.materials.len() {
+            let material = &self.materials[i];
+            uses |= bit(material.pattern.is_some(), PATTERNS)
+                | bit(material.shines, HIGHLIGHTS)
+                | bit(material.reflects, REFLECTION)
+                | bit(material.transmits, TRANSMISSION)
+                | bit(!matches!(material.shadow, Shadow::Opaque), PASSING_SHADOWS);
+            i += 1;
+        }
+        let mut i = 0;
+        while i < self.lights.len() {
+            let light = &self.lights[i];
+            uses |= match light.source {
+                Source::Point { .. } => 0,
+                Source::Directional { .. } => DIRECTIONAL_LIGHTS,
+                Source::Spot { .. } => SPOTS,
+            };
+            uses |= match light.falloff {
+                Falloff::InverseSquare => INVERSE_SQUARE,
+                Falloff::None => NO_FALLOFF,
+            };
+            i += 1;
+        }
+        uses
+    }
+}
