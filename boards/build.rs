@@ -13,5 +13,9 @@ fn main() {
     println!("cargo::rustc-link-search={}", out.display());
     // Sections needn't start on a page: without this, gaps of up to 64 KiB appear in flash.
     println!("cargo::rustc-link-arg-bins=--nmagic");
+    // riscv-rt's script doesn't include the map by itself.
+    if env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "riscv32") {
+        println!("cargo::rustc-link-arg-bins=-Tmemory.x");
+    }
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
 }

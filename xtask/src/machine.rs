@@ -10,6 +10,30 @@ use whitted_demo::job::Job;
 
 use crate::shell::{boards, cargo, output};
 
+/// A program of QEMU's.
+#[derive(Clone, Copy)]
+pub(crate) struct Emulator {
+    /// As it is called.
+    pub(crate) program: &'static str,
+    /// Debian's package.
+    pub(crate) package: &'static str,
+    /// What it always has to be told.
+    args: &'static [&'static str],
+}
+
+impl Emulator {
+    /// For Arm.
+    const ARM: Self = Self { program: "qemu-system-arm", package: "qemu-system-arm", args: &[] };
+    /// For RISC-V, which would start with a BIOS.
+    const RISCV: Self = Self {
+        program: "qemu-system-riscv32",
+        package: "qemu-system-misc",
+        args: &["-bios", "none"],
+    };
+    /// All of them.
+    pub(crate) const ALL: [Self; 2] = [Self::ARM, Self::RISCV];
+}
+
 /// A machine of QEMU with the firmware it runs.
 pub(crate) struct Machine {
     /// As reports call it.
@@ -20,6 +44,8 @@ pub(crate) struct Machine {
     pub(crate) target: &'static str,
     /// QEMU's name.
     pub(crate) machine: &'static str,
+    /// The program that emulates its kind of core.
+    pub(crate) emulator: Emulator,
     /// Whether single precision is done by the core.
     pub(crate) float: bool,
     /// Whether it shows a picture at the end, which ends with the monitor's `quit`.
@@ -27,12 +53,13 @@ pub(crate) struct Machine {
 }
 
 /// All of them.
-pub(crate) const MACHINES: [Machine; 6] = [
+pub(crate) const MACHINES: [Machine; 7] = [
     Machine {
         core: "Cortex-M0",
         board: "microbit",
         target: "thumbv6m-none-eabi",
         machine: "microbit",
+        emulator: Emulator::ARM,
         float: false,
         display: false,
     },
@@ -41,6 +68,7 @@ pub(crate) const MACHINES: [Machine; 6] = [
         board: "lm3s6965evb",
         target: "thumbv7m-none-eabi",
         machine: "lm3s6965evb",
+        emulator: Emulator::ARM,
         float: false,
         display: true,
     },
@@ -49,6 +77,7 @@ pub(crate) const MACHINES: [Machine; 6] = [
         board: "mps2",
         target: "thumbv7m-none-eabi",
         machine: "mps2-an385",
+        emulator: Emulator::ARM,
         float: false,
         display: false,
     },
@@ -57,6 +86,7 @@ pub(crate) const MACHINES: [Machine; 6] = [
         board: "mps2",
         target: "thumbv7em-none-eabihf",
         machine: "mps2-an386",
+        emulator: Emulator::ARM,
         float: true,
         display: false,
     },
@@ -65,6 +95,7 @@ pub(crate) const MACHINES: [Machine; 6] = [
         board: "mps2",
         target: "thumbv7em-none-eabihf",
         machine: "mps2-an500",
+        emulator: Emulator::ARM,
         float: true,
         display: false,
     },
@@ -73,7 +104,17 @@ pub(crate) const MACHINES: [Machine; 6] = [
         board: "mps2-m33",
         target: "thumbv8m.main-none-eabihf",
         machine: "mps2-an505",
+        emulator: Emulator::ARM,
         float: true,
+        display: false,
+    },
+    Machine {
+        core: "RISC-V",
+        board: "virt",
+        target: "riscv32imac-unknown-none-elf",
+        machine: "virt",
+        emulator: Emulator::RISCV,
+        float: false,
         display: false,
     },
 ];
@@ -158,7 +199,8 @@ impl Machine {
         dump: &Path,
         patience: Duration,
     ) -> Result<Log, String> {
-        let mut qemu = Command::new("qemu-system-arm");
+        let mut qemu = Command::new(self.emulator.program);
+        qemu.args(self.emulator.args);
         qemu.args(["-machine", self.machine, "-icount", "shift=0", "-display", "none"]);
         qemu.args(["-serial", "none", "-monitor", if self.display { "stdio" } else { "none" }]);
         let mut semihosting = String::from("enable=on,target=native,arg=firmware");
@@ -172,7 +214,7 @@ impl Machine {
         // The monitor's words end at blanks, so it gets the name alone.
         let name = dump.file_name().unwrap_or_default().to_string_lossy();
         let commands = format!("screendump {name}\nquit\n");
-        let child = qemu.spawn().map_err(|error| format!("qemu-system-arm: {error}"))?;
+        let child = qemu.spawn().map_err(|error| format!("{}: {error}", self.emulator.program))?;
         listen(Guard(child), &commands, patience)
     }
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::machine::Emulator;
 use crate::shell::{self, output, present, root};
 
 /// What the firmware and the proofs are built for.
@@ -14,9 +15,6 @@ const TARGETS: [&str; 5] = [
     "riscv32imac-unknown-none-elf",
 ];
 
-/// The emulator of Arm's boards; the same name as Debian's package.
-const QEMU: &str = "qemu-system-arm";
-
 /// The emulator of the Pico, as pip knows it.
 const PICO_EMULATOR: &str = "rp2040py==0.3.6";
 
@@ -24,7 +22,7 @@ const PICO_EMULATOR: &str = "rp2040py==0.3.6";
 pub(crate) fn run() -> Result<(), String> {
     targets()?;
     tools()?;
-    emulator()
+    emulators()
 }
 
 fn targets() -> Result<(), String> {
@@ -57,19 +55,22 @@ fn tools() -> Result<(), String> {
     })
 }
 
-fn emulator() -> Result<(), String> {
-    if present(QEMU) {
-        return Ok(());
+fn emulators() -> Result<(), String> {
+    for Emulator { program, package, .. } in Emulator::ALL {
+        if present(program) {
+            continue;
+        }
+        let by_hand = format!(
+            "{program} is missing. Please install it:\n  \
+             Debian, Ubuntu:  sudo apt-get install --no-install-recommends {package}\n  \
+             Fedora:          sudo dnf install {program}\n  \
+             Arch:            sudo pacman -S {program}\n  \
+             macOS:           brew install qemu\n\
+             `cargo xtask test --only lint --only host --only nopanic` does without."
+        );
+        apt(package, &by_hand)?;
     }
-    let by_hand = format!(
-        "{QEMU} is missing. Please install it:\n  \
-         Debian, Ubuntu:  sudo apt-get install --no-install-recommends {QEMU}\n  \
-         Fedora:          sudo dnf install {QEMU}\n  \
-         Arch:            sudo pacman -S {QEMU}\n  \
-         macOS:           brew install qemu\n\
-         `cargo xtask test --only lint --only host --only nopanic` does without."
-    );
-    apt(QEMU, &by_hand)
+    Ok(())
 }
 
 /// Installs Debian's package of a name, if this is such a system and it is allowed.

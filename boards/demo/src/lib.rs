@@ -10,9 +10,9 @@ pub mod oled;
 pub mod rgb565;
 pub mod scenes;
 
-#[cfg(all(target_arch = "arm", target_os = "none", feature = "semihosting"))]
+#[cfg(all(target_os = "none", feature = "semihosting"))]
 pub mod board;
-#[cfg(all(target_arch = "arm", target_os = "none", feature = "semihosting"))]
+#[cfg(all(target_os = "none", feature = "semihosting"))]
 mod counter;
-#[cfg(all(target_arch = "arm", target_os = "none"))]
+#[cfg(target_os = "none")]
 pub mod stack;

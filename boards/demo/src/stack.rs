@@ -8,7 +8,7 @@ const PAINT: u32 = 0xA5C3_3C5A;
 const MARGIN: usize = 128;
 
 unsafe extern "C" {
-    /// Start of initialised data; cortex-m-rt's linker script.
+    /// Start of initialised data, as the linker scripts of cortex-m-rt and riscv-rt name it.
     static mut __sdata: u32;
     /// End of everything static, where the free memory starts.
     static mut __sheap: u32;
@@ -51,6 +51,15 @@ pub fn used(top: usize) -> usize {
     top.saturating_sub(p.addr())
 }
 
+#[cfg(target_arch = "arm")]
 fn stack_pointer() -> usize {
     cortex_m::register::msp::read() as usize
+}
+
+#[cfg(target_arch = "riscv32")]
+fn stack_pointer() -> usize {
+    let pointer;
+    // SAFETY: reads a register, and nothing else.
+    unsafe { core::arch::asm!("mv {}, sp", out(reg) pointer, options(nomem, nostack)) };
+    pointer
 }
