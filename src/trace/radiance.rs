@@ -142,7 +142,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let outside = Ray {
             origin: A::leave(&p, &surface.geometric, hit.distance),
             direction: mirror,
-            leaving: Leaving { shape: hit.shape, inwards: surface.behind },
+            leaving: Leaving::back(hit.shape, &surface),
         };
         let shading = Shading {
             surface: &surface,
@@ -176,7 +176,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                         let ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
-                            leaving: Leaving { shape: hit.shape, inwards: !surface.behind },
+                            leaving: Leaving::through(hit.shape, &surface),
                         };
                         transmitted =
                             Some(Path { ray, weight, depth, kind: RayKind::Transmission });
