@@ -69,7 +69,20 @@ pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
 
 /// Instances of groups.
-pub const INSTANCES: u64 = 1 << 22;
+pub const INSTANCES: u64 = 1 << 40;
+
+// The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
+// adds what its pictures are sampled by, see `Sampling::uses`.
+
+/// [`Sampling::Grid`](crate::frame::Sampling::Grid) and
+/// [`Sampling::Jittered`](crate::frame::Sampling::Jittered).
+pub const CELLS: u64 = 1 << 63;
+/// [`Sampling::Corners`](crate::frame::Sampling::Corners).
+pub const CORNERS: u64 = 1 << 62;
+/// [`Sampling::Adaptive`](crate::frame::Sampling::Adaptive).
+pub const ADAPTIVE: u64 = 1 << 61;
+/// [`Sampling::Sparse`](crate::frame::Sampling::Sparse).
+pub const SPARSE: u64 = 1 << 60;
 
 /// Whether `uses` has all bits of `what`.
 #[inline(always)]
@@ -81,6 +94,18 @@ pub(crate) const fn has(uses: u64, what: u64) -> bool {
 #[inline(always)]
 pub(crate) const fn has_others(uses: u64) -> bool {
     uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+}
+
+/// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.
+#[inline(always)]
+pub(crate) const fn has_samplings(uses: u64) -> bool {
+    uses & (CELLS | CORNERS | ADAPTIVE | SPARSE) != 0
+}
+
+/// Whether pictures may be sampled by what rays hit.
+#[inline(always)]
+pub(crate) const fn has_signatures(uses: u64) -> bool {
+    uses & (ADAPTIVE | SPARSE) != 0
 }
 
 const fn bit(wanted: bool, what: u64) -> u64 {
