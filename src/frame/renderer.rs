@@ -156,6 +156,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
+        if USES & uses::AREA_LIGHTS != 0 {
+            self.tracer.set_key(row.key(x, fraction));
+        }
         self.tracer.radiance(ray, self.work, &mut self.tally)
     }
 }
