@@ -14,7 +14,7 @@ use std::fmt::{self, Write as _};
 
 use crate::document::{
     Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Material, Point,
-    ShadowThrough, Size, cross, dot, length, normalized, scaled, sub,
+    ShadowThrough, Shape, Size, cross, dot, length, normalized, scaled, sub,
 };
 
 /// The scene for pictures of a size, whose proportions the camera has.
@@ -74,10 +74,29 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
             writeln!(out, "#declare T{index} = {}", pattern(index, checker))?;
         }
     }
-    for shape in &document.shapes {
-        let Some(material) = document.materials.get(shape.material) else { continue };
+    shapes(&document.shapes, None, document, out)?;
+    for instance in &document.instances {
+        let Some(group) = document.groups.get(instance.group) else { continue };
+        writeln!(out, "union {{")?;
+        shapes(&group.shapes, instance.material, document, out)?;
+        let [x, y, z] = instance.place.columns;
+        let rows = [x, y, z, instance.place.offset].map(|v| v.map(|x| x.to_string()).join(", "));
+        writeln!(out, "matrix <{}> }}", rows.join(", "))?;
+    }
+    Ok(())
+}
+
+/// Shapes with their textures, or all with that of one material.
+fn shapes(
+    shapes: &[Shape],
+    instead: Option<usize>,
+    document: &Document,
+    out: &mut String,
+) -> fmt::Result {
+    for shape in shapes {
+        let index = instead.unwrap_or(shape.material);
+        let Some(material) = document.materials.get(index) else { continue };
         body(&shape.body, out)?;
-        let index = shape.material;
         let ior = material.index_behind / material.index_front;
         let shadow = material.shadow;
         let twin = shadow == ShadowThrough::Opaque && material.transmits();

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 pub use whitted::frame::Sampling;
 use whitted::frame::{Output, Renderer, Rgb888, Sample};
+use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;
 use whitted::trace::{Tracer, Work};
 
@@ -59,20 +60,28 @@ pub struct Rendered {
 pub fn render<A: Construct>(
     baked: &Baked<A>,
     settings: &Settings,
+    progress: impl FnMut(u32),
+) -> Result<Rendered, Flaw> {
+    let camera = baked.camera(settings.size)?;
+    baked.with_scene(|scene| render_scene(scene, &camera, settings, progress))?
+}
+
+fn render_scene<A: Construct>(
+    scene: &Scene<'_, A>,
+    camera: &Camera<A>,
+    settings: &Settings,
     mut progress: impl FnMut(u32),
 ) -> Result<Rendered, Flaw> {
     let start = Instant::now();
-    let scene = baked.scene()?;
-    let camera = baked.camera(settings.size)?;
     let core = settings.for_core();
     let mut work = Work::<A, MAX_DEPTH>::new();
     let mut samples = vec![Sample::NONE; core.sampling.samples(core.width)];
     let counts = Counts::default();
-    let mut renderer = Renderer::with_tally(&scene, &camera, core, &mut work, &mut samples, counts)
+    let mut renderer = Renderer::with_tally(scene, camera, core, &mut work, &mut samples, counts)
         .map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
     let mut picture = Picture::new(settings.size);
     if let Some(show) = settings.show {
-        let tracer = Tracer::new(&scene, settings.depth);
+        let tracer = Tracer::new(scene, settings.depth);
         show::paint(&mut renderer, &tracer, show, &mut picture, &mut progress);
     } else {
         let mut line = vec![Rgb888::default(); usize::from(core.width)];

@@ -6,7 +6,8 @@
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
-    Ambient, Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Scene, SceneError,
+    Ambient, Background, Camera, Group, Instance, Light, LightSpec, Material, MaterialSpec, Parts,
+    Scene, SceneError, Shapes, Transform,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
@@ -154,6 +155,14 @@ construct! {
     /// The ambient irradiance.
     fn new_ambient(color: Point) -> Made<Ambient<Self>>
         = |A| Ambient::<A>::try_new(color);
+    /// See [`Group`].
+    fn new_group<'s>(shapes: Shapes<'s, Self>) -> Result<Group<'s, Self>, SceneError>
+        = |A| Group::<A>::try_new(shapes);
+    /// See [`Instance`].
+    fn new_instance<'s>(
+        group: &'s Group<'s, Self>, transform: &Transform
+    ) -> Made<Instance<'s, Self>>
+        = |A| Instance::<A>::try_new(group, transform);
     /// See [`Scene::new`].
     fn new_scene<'s>(parts: Parts<'s, Self>) -> Result<Scene<'s, Self>, SceneError>
         = |A| Scene::<A>::new(parts);

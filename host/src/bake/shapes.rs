@@ -8,8 +8,9 @@ use whitted::shape::{
 };
 
 use super::Construct;
-use crate::document::{Body, Document, dot, normalized};
+use crate::document::{Body, Bounds, Shape, dot, normalized};
 use crate::error::{Flaw, Problem};
+use std::path::Path;
 
 /// Below this a list is quicker than a tree.
 const LEAST_FOR_A_TREE: usize = 10;
@@ -100,8 +101,13 @@ macro_rules! bounded {
 }
 
 impl<A: Construct> Shapes<A> {
-    /// Makes all shapes of a document that has been placed, and the tree.
-    pub(super) fn new(document: &Document) -> Result<Self, Flaw> {
+    /// Makes shapes that have been placed and lie within the bounds, and the tree; `file` names
+    /// the file that one came from.
+    pub(super) fn new<'f>(
+        all: &[Shape],
+        bounds: Option<Bounds>,
+        file: impl Fn(usize) -> Option<&'f Path>,
+    ) -> Result<Self, Flaw> {
         let mut shapes = Self {
             spheres: Kind::default(),
             triangles: Kind::default(),
@@ -113,11 +119,11 @@ impl<A: Construct> Shapes<A> {
             cylinders: Kind::default(),
             cones: Kind::default(),
             planes: Kind::default(),
-            log2_step: step(document),
+            log2_step: step(bounds),
             tree: None,
         };
-        for (index, shape) in document.shapes.iter().enumerate() {
-            let from = document.file_of_shape(index);
+        for (index, shape) in all.iter().enumerate() {
+            let from = file(index);
             let refuse =
                 |e| super::refused::<A>(shape.body.name(), e, Some(shape.line)).within(from);
             let material = u16::try_from(shape.material).map_err(|_| refuse(ShapeError::Material));
@@ -202,8 +208,7 @@ impl<A: Construct> Shapes<A> {
     pub(super) fn parts(&self) -> Result<Parts<'_, A>, Flaw> {
         let tree = |t| {
             let t: &Tree = t;
-            let mut shapes = 0;
-            bounded!(self, kind => shapes += kind.shapes.len());
+            let shapes = self.bounded() as usize;
             let tree: Result<Octree<'_, A>, _> =
                 A::new_octree(&t.words, shapes, &t.cube, self.log2_step);
             tree.map_err(|error| unfit(&error))
@@ -224,16 +229,29 @@ impl<A: Construct> Shapes<A> {
         })
     }
 
-    /// The document's index of the shape of this number.
-    pub(super) fn origin(&self, shape: u32) -> Option<usize> {
+    /// How many there are besides planes.
+    pub(super) fn bounded(&self) -> u32 {
+        let mut count = 0;
+        bounded!(self, kind => count += kind.shapes.len());
+        count as u32
+    }
+
+    /// The document's index of the plane that is the `n`th.
+    pub(super) fn plane_origin(&self, n: u32) -> Option<usize> {
+        self.planes.origins.get(n as usize).copied()
+    }
+
+    /// The document's index of the bounded shape of this number; how far it lies beyond the last
+    /// one, if it does.
+    pub(super) fn origin(&self, shape: u32) -> Result<usize, u32> {
         let mut left = shape as usize;
         bounded!(self, kind => {
             if let Some(&origin) = kind.origins.get(left) {
-                return Some(origin);
+                return Ok(origin);
             }
             left -= kind.origins.len();
         });
-        self.planes.origins.get(left).copied()
+        Err(left as u32)
     }
 
     /// Words and levels of the tree, if there is one.
@@ -248,8 +266,8 @@ fn unfit(error: &dyn std::error::Error) -> Flaw {
 }
 
 /// The grid that floating-point octrees are built on: its farthest coordinate is 2²⁵ to 2²⁶.
-fn step(document: &Document) -> i8 {
-    let Some(bounds) = document.bounds() else { return -26 };
+fn step(bounds: Option<Bounds>) -> i8 {
+    let Some(bounds) = bounds else { return -26 };
     let coordinates = bounds.low.into_iter().chain(bounds.high);
     let farthest = coordinates.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
     (farthest.log2().ceil() as i32 - 26).clamp(-80, 60) as i8

@@ -145,7 +145,7 @@ pub struct Misplaced {
 }
 
 impl Document {
-    /// Adds the materials of another file's document, and its shapes and lights once for each
+    /// Adds the materials and groups of another file's document, and its shapes, instances and lights once for each
     /// transform. Where and how the other is seen doesn't count here.
     ///
     /// # Errors
@@ -163,13 +163,21 @@ impl Document {
         }
         self.materials.append(&mut materials);
         // Files that the other file includes keep their names; in a copy they lie further on.
-        let part = |shapes, materials, lights, file: &Path| Included {
+        let part = |shapes, materials, lights, groups, file: &Path| Included {
             file: file.to_owned(),
             shapes,
             materials,
             lights,
+            groups,
         };
         let materials = first..self.materials.len();
+        let first_group = self.groups.len();
+        for group in &other.groups {
+            let mut group = group.clone();
+            group.shapes.iter_mut().for_each(|shape| shape.material += first);
+            self.groups.push(group);
+        }
+        let groups = first_group..self.groups.len();
         for by in copies {
             let (shapes, lights) = (self.shapes.len(), self.lights.len());
             // Where each of the other's shapes went: one may have become several.
@@ -187,14 +195,24 @@ impl Document {
                 let misplaced = |why| Misplaced { what: "light", line: light.line, why };
                 self.lights.push(light.placed(by).map_err(misplaced)?);
             }
+            for instance in &other.instances {
+                let place = instance.place.then(by);
+                if let Some(why) = super::Instance::flaw(&place) {
+                    return Err(Misplaced { what: "instance", line: instance.line, why });
+                }
+                let material = instance.material.map(|material| material + first);
+                let group = instance.group + first_group;
+                self.instances.push(super::Instance { group, place, material, ..*instance });
+            }
             let all = (shapes..self.shapes.len(), lights..self.lights.len());
-            self.included.push(part(all.0, materials.clone(), all.1, file));
+            self.included.push(part(all.0, materials.clone(), all.1, groups.clone(), file));
             for inner in &other.included {
                 let place = |i: usize| went.get(i).copied().unwrap_or(self.shapes.len());
                 self.included.push(part(
                     place(inner.shapes.start)..place(inner.shapes.end),
                     inner.materials.start + first..inner.materials.end + first,
                     inner.lights.start + lights..inner.lights.end + lights,
+                    inner.groups.start + first_group..inner.groups.end + first_group,
                     &inner.file,
                 ));
             }

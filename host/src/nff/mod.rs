@@ -211,6 +211,8 @@ impl Reader<'_> {
             lights: lights.collect(),
             materials: self.materials,
             shapes: self.shapes,
+            groups: Vec::new(),
+            instances: Vec::new(),
             warnings: self.warnings,
             included: Vec::new(),
         })

@@ -1,6 +1,7 @@
 //! Our own scene format, in TOML: all that the model has (described in `docs/scene-format.md`).
 
 mod body;
+mod group;
 mod include;
 mod light;
 mod material;
@@ -14,6 +15,7 @@ use crate::document::{
 };
 use crate::error::{Flaw, Problem};
 use crate::read::Around;
+use group::Groups;
 use material::Names;
 use table::{Lines, Table, Value};
 
@@ -59,15 +61,42 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
         materials: names.own().to_vec(),
         lights,
         shapes: Vec::new(),
+        groups: Vec::new(),
+        instances: Vec::new(),
         warnings: Vec::new(),
         included: Vec::new(),
     };
     let included = include::all(&scene, around, &mut document, &mut names)?;
     names.link(&mut document.materials)?;
 
+    let mut groups = Groups::read(&tables(&scene, "group")?, &names)?;
+    let mut first = groups.own.len();
+    for part in &included {
+        let theirs = part.groups();
+        groups.include(&theirs, first);
+        first += theirs.len();
+    }
+    document.instances = groups.instances(&tables(&scene, "instance")?, &names)?;
+    document.groups = groups.own;
+    document.shapes = shapes(&scene, &names)?;
+    scene.done()?;
+    for part in included {
+        part.place(&mut document)?;
+    }
+    if document.shapes.is_empty() && document.instances.is_empty() && !around.is_included() {
+        let kinds: Vec<String> =
+            body::KINDS.iter().map(|(kind, _)| format!("[[{kind}]]")).collect();
+        let what = format!("a shape ({})", kinds.join(", "));
+        return Err(Problem::Missing { what }.anywhere());
+    }
+    Ok(document)
+}
+
+/// The shapes of a scene or of a group.
+fn shapes(scene: &Table<'_>, names: &Names<'_>) -> Result<Vec<Shape>, Flaw> {
     let mut shapes = Vec::new();
     for (kind, read) in body::KINDS {
-        for table in tables(&scene, kind)? {
+        for table in tables(scene, kind)? {
             let material = names.of(&table)?;
             let bodies = read(&table)?;
             let copies = place::read(&table)?;
@@ -90,20 +119,9 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
             }
         }
     }
-    scene.done()?;
     // The kinds were read one after the other; numbers go by the file's order.
     shapes.sort_by_key(|shape| shape.line);
-    document.shapes = shapes;
-    for part in included {
-        part.place(&mut document)?;
-    }
-    if document.shapes.is_empty() && !around.is_included() {
-        let kinds: Vec<String> =
-            body::KINDS.iter().map(|(kind, _)| format!("[[{kind}]]")).collect();
-        let what = format!("a shape ({})", kinds.join(", "));
-        return Err(Problem::Missing { what }.anywhere());
-    }
-    Ok(document)
+    Ok(shapes)
 }
 
 /// A scene's camera for files that are seen by another file's.
