@@ -73,7 +73,7 @@ impl<'d> Names<'d> {
     }
 
     /// The file's own material of this name; else that of the files that it includes.
-    fn find(&self, value: &Value<'_>) -> Result<usize, Flaw> {
+    pub(super) fn find(&self, value: &Value<'_>) -> Result<usize, Flaw> {
         let name = value.text("material")?;
         if let Some(own) = self.materials.iter().position(|m| m.name == name) {
             return Ok(own);
