@@ -116,6 +116,12 @@ impl Placement {
         if let Some(checker) = &mut material.checker {
             checker.cell = scaled(checker.cell, self.scale());
             checker.offset = self.point(checker.offset);
+            // Twice a cell further on it looks the same; far away it is out of range.
+            for (offset, cell) in checker.offset.iter_mut().zip(checker.cell) {
+                if offset.abs() > 512.0 {
+                    *offset = if cell > 0.0 { offset.rem_euclid(2.0 * cell) } else { 0.0 };
+                }
+            }
         }
     }
 
