@@ -72,11 +72,14 @@ pub fn tree<A: Construct>(
     (x, y): (u32, u32),
 ) -> Result<Tree, Flaw> {
     let view = View::new(&baked.camera(size)?, size.width as u16, size.height as u16);
-    let ray = view.ray(&view.row(y as u16, 128), x as u16, 128);
+    let row = view.row(y as u16, 128);
+    let ray = view.ray(&row, x as u16, 128);
     let mut tree = Tree::default();
     let mut work = Work::<A, MAX_DEPTH>::new();
-    let sum =
-        baked.with_scene(|scene| Tracer::new(scene, depth).radiance(ray, &mut work, &mut tree))?;
+    let sum = baked.with_scene(|scene| {
+        let tracer = Tracer::new(scene, depth).with_key(row.key(x as u16, 128));
+        tracer.radiance(ray, &mut work, &mut tree)
+    })?;
     tree.sum = radiance::<A>(&sum);
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };
@@ -132,6 +135,7 @@ impl fmt::Display for Tree {
             for (term, value) in &branch.terms {
                 let name = match term {
                     Term::Background => "background".to_string(),
+                    Term::Emission => "emission".to_string(),
                     Term::Ambient => "ambient".to_string(),
                     Term::Direct { light } => format!("light {light}"),
                 };

@@ -36,7 +36,13 @@ fn picture<A: Construct>(text: &str) -> Picture {
         .unwrap_or_else(|flaw| panic!("{:?}: {}\n{text}", flaw.line, flaw.problem));
     let baked = Baked::<A>::new(&document).unwrap_or_else(|flaw| panic!("{}", flaw.problem));
     let size = Size { width: 96, height: 72 };
-    let settings = Settings { size, depth: 4, sampling: Sampling::Grid { side: 2 }, show: None };
+    let settings = Settings {
+        size,
+        depth: 4,
+        sampling: Sampling::Grid { side: 2 },
+        show: None,
+        threads: std::num::NonZeroUsize::MIN,
+    };
     render(&baked, &settings, |_| {}).unwrap_or_else(|flaw| panic!("{}", flaw.problem)).picture
 }
 

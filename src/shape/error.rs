@@ -21,6 +21,8 @@ pub enum ShapeError {
     Operands,
     /// The material's index is 32768 or more.
     Material,
+    /// The shadow rays to an area light are none, more than 1024, or at least more than at most.
+    Samples,
 }
 
 impl ShapeError {
@@ -35,6 +37,7 @@ impl ShapeError {
             Self::Coefficient => "a coefficient is negative, not a number, or out of range",
             Self::Operands => "a solid needs one to eight operands, an inside and an end",
             Self::Material => "a material's index is 32768 or more",
+            Self::Samples => "an area light takes 1 to 1024 shadow rays, at least as many at most",
         }
     }
 }
