@@ -102,3 +102,33 @@ fn pov_ray_gets_unions() {
     assert_eq!(text.matches("matrix <").count(), 2);
     assert_eq!(text.matches('{').count(), text.matches('}').count());
 }
+
+#[test]
+fn solids_and_caps_have_their_words() {
+    let document = read::parse(Format::Toml, include_bytes!("../scenes/solids.toml"))
+        .unwrap_or_else(|flaw| panic!("{:?}: {}", flaw.line, flaw.problem));
+    let text = to_pov(&document, Size { width: 4, height: 3 });
+    for word in ["difference {", "intersection {", "merge {", "union {", "plane {"] {
+        assert!(text.contains(word), "{word}");
+    }
+    assert!(!text.contains(" open"));
+    assert_eq!(text.matches('{').count(), text.matches('}').count());
+}
+
+/// A solid of one shape is that shape; fixed point draws solids, caps and instances as f64 does.
+#[test]
+fn solids_in_pictures() {
+    let head = "ambient = 0.3\nbackground = 0.5\n[camera]\neye = [1, 2, -6]\n\
+                look_at = [0, 0, 0]\n[[light]]\nposition = [4, 6, -5]\nintensity = 50\n\
+                [[material]]\nname = \"a\"\nreflection = 0.2\n";
+    let tube = "{ base = [-1, 0, 0], apex = [1, 0.5, 0], radius = 0.8 }";
+    let closed = format!(
+        "{head}[[cylinder]]\nbase = [-1, 0, 0]\napex = [1, 0.5, 0]\nradius = 0.8\ncaps = true\n"
+    );
+    let solid = format!("{head}[[solid]]\nunion = [{{ cylinder = {tube} }}]\n");
+    assert!(decibels(&picture::<f64>(&closed), &picture::<f64>(&solid)) > 100.0);
+    let scene = include_str!("../scenes/solids.toml");
+    let fixed = decibels(&picture::<f64>(scene), &picture::<Fixed>(scene));
+    println!("solids: fixed {fixed:.1} dB");
+    assert!(fixed > 42.0, "{fixed}");
+}

@@ -157,7 +157,7 @@ impl Placement {
         };
         for shape in placed.groups.iter_mut().skip(index).take(1).flat_map(|g| &mut g.shapes) {
             space.body(&mut shape.body);
-            shape.material = material(&mut placed.materials, shape.material);
+            shape.rename(&mut |old| material(&mut placed.materials, old));
         }
         let ratio = self.scale() / scale;
         for instance in placed.instances.iter_mut().filter(|i| i.group == index) {
@@ -208,16 +208,19 @@ impl Placement {
                 *corners = corners.map(|c| self.point(c));
             }
             Body::Polygon { corners } => corners.iter_mut().for_each(|c| *c = self.point(*c)),
-            Body::Cylinder { base, apex, radius } => {
+            Body::Cylinder { base, apex, radius, .. } => {
                 *base = self.point(*base);
                 *apex = self.point(*apex);
                 *radius *= s;
             }
-            Body::Cone { base, base_radius, apex, apex_radius } => {
+            Body::Cone { base, base_radius, apex, apex_radius, .. } => {
                 *base = self.point(*base);
                 *apex = self.point(*apex);
                 *base_radius *= s;
                 *apex_radius *= s;
+            }
+            Body::Solid(solid) => {
+                solid.operands.iter_mut().for_each(|operand| self.body(&mut operand.body));
             }
         }
     }

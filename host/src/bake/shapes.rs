@@ -3,12 +3,12 @@
 use whitted::octree::{BuildError, Built, Cube, Extent, Octree, build_into};
 use whitted::scene::Parts;
 use whitted::shape::{
-    Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
-    Triangle,
+    Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
+    SmoothTriangle, Solid, Sphere, Triangle,
 };
 
 use super::Construct;
-use crate::document::{Body, Bounds, Shape, dot, normalized};
+use crate::document::{Body, Bounds, Made, Shape, dot, normalized};
 use crate::error::{Flaw, Problem};
 use std::path::Path;
 
@@ -57,6 +57,8 @@ pub(super) struct Shapes<A: Construct> {
     discs: Kind<Disc<A>>,
     cylinders: Kind<Cylinder<A>>,
     cones: Kind<Cone<A>>,
+    solids: Kind<Solid<A>>,
+    operands: Vec<Operand<A>>,
     planes: Kind<Plane<A>>,
     log2_step: i8,
     tree: Option<Tree>,
@@ -97,6 +99,10 @@ macro_rules! bounded {
             let $kind = &$self.cones;
             $one
         }
+        {
+            let $kind = &$self.solids;
+            $one
+        }
     }};
 }
 
@@ -118,6 +124,8 @@ impl<A: Construct> Shapes<A> {
             discs: Kind::default(),
             cylinders: Kind::default(),
             cones: Kind::default(),
+            solids: Kind::default(),
+            operands: Vec::new(),
             planes: Kind::default(),
             log2_step: step(bounds),
             tree: None,
@@ -167,13 +175,24 @@ impl<A: Construct> Shapes<A> {
                 self.edges.extend(edges);
                 self.polygons.add(made, Some(A::polygon_extent(corners, step)), index);
             }
-            Body::Cylinder { base, apex, radius } => {
+            Body::Cylinder { base, apex, radius, capped } => {
                 let made = A::new_cylinder(*base, *apex, *radius, material)?;
+                let made = if *capped { made.with_caps() } else { made };
                 self.cylinders.add(made, Some(A::cylinder_extent(&made, step)), index);
             }
-            Body::Cone { base, base_radius, apex, apex_radius } => {
+            Body::Cone { base, base_radius, apex, apex_radius, capped } => {
                 let made = A::new_cone(*base, *base_radius, *apex, *apex_radius, material)?;
+                let made = if *capped { made.with_caps() } else { made };
                 self.cones.add(made, Some(A::cone_extent(&made, step)), index);
+            }
+            Body::Solid(solid) => {
+                let first = self.operands.len() as u32;
+                for shape in &solid.operands {
+                    self.operands.push(operand(shape)?);
+                }
+                let count = u8::try_from(solid.operands.len()).unwrap_or(u8::MAX);
+                let made = A::new_solid(region(&solid.made), &self.operands, first, count)?;
+                self.solids.add(made, Some(A::solid_extent(&made, step)), index);
             }
         }
         Ok(())
@@ -223,6 +242,8 @@ impl<A: Construct> Shapes<A> {
             discs: &self.discs.shapes,
             cylinders: &self.cylinders.shapes,
             cones: &self.cones.shapes,
+            solids: &self.solids.shapes,
+            operands: &self.operands,
             planes: &self.planes.shapes,
             tree: self.tree.as_ref().map(tree).transpose()?,
             ..Parts::EMPTY
@@ -257,6 +278,40 @@ impl<A: Construct> Shapes<A> {
     /// Words and levels of the tree, if there is one.
     pub(super) fn tree(&self) -> Option<(usize, u8)> {
         self.tree.as_ref().map(|tree| (tree.words.len(), tree.levels))
+    }
+}
+
+fn operand<A: Construct>(shape: &Shape) -> Result<Operand<A>, ShapeError> {
+    let material = u16::try_from(shape.material).map_err(|_| ShapeError::Material)?;
+    Ok(match &shape.body {
+        Body::Sphere { center, radius } => {
+            Operand::Sphere(A::new_sphere(*center, radius.abs(), material)?)
+        }
+        Body::Box { low, high } => Operand::Cuboid(A::new_cuboid(*low, *high, material)?),
+        Body::Cylinder { base, apex, radius, .. } => {
+            Operand::Cylinder(A::new_cylinder(*base, *apex, radius.abs(), material)?)
+        }
+        Body::Cone { base, base_radius, apex, apex_radius, .. } => {
+            let (r, q) = (base_radius.abs(), apex_radius.abs());
+            Operand::Cone(A::new_cone(*base, r, *apex, q, material)?)
+        }
+        Body::Plane { point, normal } => {
+            let offset = normalized(*normal).map_or(0.0, |n| dot(n, *point));
+            Operand::HalfSpace(A::new_plane(*normal, offset, material)?)
+        }
+        _ => return Err(ShapeError::Operands),
+    })
+}
+
+fn region(made: &Made) -> Region {
+    let all = |parts: &[Made], with: fn(Region, Region) -> Region| {
+        parts.iter().map(region).reduce(with).unwrap_or(Region::NOTHING)
+    };
+    match made {
+        Made::Of(index) => Region::of(*index),
+        Made::Union(parts) => all(parts, Region::or),
+        Made::Intersection(parts) => all(parts, Region::and),
+        Made::Difference(parts) => all(parts, Region::minus),
     }
 }
 

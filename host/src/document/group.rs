@@ -1,6 +1,6 @@
 //! Groups of shapes, and where they stand.
 
-use super::{Bounds, Document, Shape, Transform};
+use super::{Body, Bounds, Document, Shape, Transform};
 
 /// Shapes that are placed together, in a space of their own.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,20 @@ impl Instance {
     /// The box around its shapes.
     pub fn bounds(&self, document: &Document) -> Option<Bounds> {
         let shapes = &document.groups.get(self.group)?.shapes;
-        let placed = shapes.iter().filter_map(|shape| shape.body.placed(&self.place).ok());
-        placed.flatten().filter_map(|body| body.bounds()).reduce(Bounds::union)
+        shapes.iter().filter_map(|shape| self.bounds_of(&shape.body)).reduce(Bounds::union)
+    }
+
+    /// The box around one of its shapes.
+    fn bounds_of(&self, body: &Body) -> Option<Bounds> {
+        if let Ok(bodies) = body.placed(&self.place) {
+            return bodies.iter().filter_map(Body::bounds).reduce(Bounds::union);
+        }
+        // What can't be turned by itself lies within its turned box.
+        let Bounds { low, high } = body.bounds()?;
+        let corner = |i: usize| {
+            let pick = |axis: usize| if i >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            self.place.point([pick(0), pick(1), pick(2)])
+        };
+        Bounds::around(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner))
     }
 }

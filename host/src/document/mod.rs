@@ -16,6 +16,7 @@ mod material;
 mod place;
 mod rules;
 mod shape;
+mod solid;
 mod transform;
 mod vector;
 
@@ -27,6 +28,7 @@ pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
 pub use rules::Rules;
 pub use shape::{Body, Shape};
+pub use solid::{Made, Solid};
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
 

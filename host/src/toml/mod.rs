@@ -6,6 +6,7 @@ mod include;
 mod light;
 mod material;
 mod place;
+mod solid;
 mod table;
 
 use toml::de::DeTable;
@@ -99,29 +100,45 @@ fn shapes(scene: &Table<'_>, names: &Names<'_>) -> Result<Vec<Shape>, Flaw> {
         for table in tables(scene, kind)? {
             let material = names.of(&table)?;
             let bodies = read(&table)?;
-            let copies = place::read(&table)?;
-            table.done()?;
-            for body in bodies {
-                if let Some(why) = body.flaw() {
-                    return Err(Problem::degenerate(table.name, why).at(table.line));
-                }
-                room(copies.len() + shapes.len(), table.line)?;
-                for by in &copies {
-                    let wrong = |why| Problem::degenerate(table.name, why).at(table.line);
-                    for body in body.placed(by).map_err(wrong)? {
-                        if let Some(why) = body.flaw() {
-                            return Err(wrong(why));
-                        }
-                        within(&body, table.line)?;
-                        shapes.push(Shape { body, material, line: table.line });
-                    }
-                }
-            }
+            copies(&table, bodies, material, &mut shapes)?;
         }
+    }
+    for table in tables(scene, "solid")? {
+        let material = names.of(&table)?;
+        let bodies = vec![solid::read(&table, names, material)?];
+        copies(&table, bodies, material, &mut shapes)?;
     }
     // The kinds were read one after the other; numbers go by the file's order.
     shapes.sort_by_key(|shape| shape.line);
     Ok(shapes)
+}
+
+/// Adds what a table describes, once for each of its placements.
+fn copies(
+    table: &Table<'_>,
+    bodies: Vec<Body>,
+    material: usize,
+    shapes: &mut Vec<Shape>,
+) -> Result<(), Flaw> {
+    let copies = place::read(table)?;
+    table.done()?;
+    for body in bodies {
+        if let Some(why) = body.flaw() {
+            return Err(Problem::degenerate(table.name, why).at(table.line));
+        }
+        room(copies.len() + shapes.len(), table.line)?;
+        for by in &copies {
+            let wrong = |why| Problem::degenerate(table.name, why).at(table.line);
+            for body in body.placed(by).map_err(wrong)? {
+                if let Some(why) = body.flaw() {
+                    return Err(wrong(why));
+                }
+                within(&body, table.line)?;
+                shapes.push(Shape { body, material, line: table.line });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A scene's camera for files that are seen by another file's.
