@@ -25,6 +25,8 @@ pub enum Term {
     Background,
     /// k_amb·E_amb.
     Ambient,
+    /// k_d·E, the irradiance E coming from other surfaces: an irradiance cache, virtual lights.
+    Indirect,
     /// Light `light` of the scene, diffuse and highlight.
     Direct {
         /// Its index.

@@ -16,6 +16,7 @@
 mod constant;
 mod fixed;
 mod float;
+mod hash;
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 mod hardware;
 mod log;
@@ -29,7 +30,8 @@ pub(crate) use constant::{
 pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
 pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedSpot};
 pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatSpot};
-pub(crate) use root::normalize as normalize_u32;
+pub(crate) use hash::{hash, spread};
+pub(crate) use root::{normalize as normalize_u32, sqrt_u32};
 pub use root::sqrt_f32;
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
 
@@ -209,6 +211,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn leg(r: &Self::Radius, leg2: Self::Leg2) -> Self::Length;
     /// The square of a length whose absolute value is no larger than 2·`r`.
     fn square(r: &Self::Radius, a: Self::Length) -> Self::Leg2;
+    /// `a` over the length whose reciprocal is given, for |a| no larger than that length.
+    fn share(a: Self::Length, inverse: &Self::Inverse) -> Self::Unit;
     /// `v/r`, for |v| ≤ r: the normal of a sphere.
     fn over(r: &Self::Radius, v: &[Self::Length; 3]) -> [Self::Unit; 3];
     /// `a/r`, for |a| ≤ r.
@@ -276,12 +280,16 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn weight(a: Self::Weight, b: Self::Weight) -> Self::Weight;
     /// `a/b`, for a light's cone: 0 ≤ a ≤ b.
     fn quotient(a: Self::Weight, b: Self::Weight) -> Self::Weight;
+    /// `x`/65536 for |x| ≤ 65536, exactly.
+    fn fraction(x: i32) -> Self::Unit;
     /// A component of a unit vector as a coefficient.
     fn weight_of(u: Self::Unit) -> Self::Weight;
     /// `cos^n` for a cosine in 0 to 1.
     fn power(cos: Self::Weight, n: &Self::Exponent) -> Self::Weight;
     /// `r·w`.
     fn dim(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
+    /// `r/w`, for a weighted mean: `w` from 1/64 to 1024, the quotient below 1024.
+    fn over_weight(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
     /// `middle + slope·u`, not below 0, for |slope| ≤ middle.
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating.
@@ -290,6 +298,12 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;
     /// The radiance as a number of 1/65536, saturating: what the tone curve reads.
     fn to_q16(r: Self::Radiance) -> i32;
+    /// The radiance of a number of 1/65536.
+    fn from_q16(bits: i32) -> Self::Radiance;
+    /// A component of a unit vector as a number of 1/131072.
+    fn to_q17(u: Self::Unit) -> i32;
+    /// `a/b` as a number of 1/65536, for `a ≥ 0` and `b ≥ 0`; saturating at 2³¹ − 1, also for b = 0.
+    fn ratio_q16(a: Self::Length, b: Self::Length) -> u32;
     /// Intensity times the square of an inverse length, saturating at 1024.
     fn falloff(intensity: &Self::Intensity, inverse: &Self::Inverse) -> Self::Radiance;
     /// Intensity without falloff.

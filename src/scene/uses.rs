@@ -67,6 +67,8 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// [`Indirect::Cache`](crate::gather::Indirect::Cache).
+pub const IRRADIANCE_CACHE: u64 = 1 << 32;
 
 /// Whether `uses` has all bits of `what`.
 #[inline(always)]
@@ -78,6 +80,12 @@ pub(crate) const fn has(uses: u64, what: u64) -> bool {
 #[inline(always)]
 pub(crate) const fn has_others(uses: u64) -> bool {
     uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+}
+
+/// Whether there may be diffuse interreflection.
+#[inline(always)]
+pub(crate) const fn has_indirect(uses: u64) -> bool {
+    uses & IRRADIANCE_CACHE != 0
 }
 
 const fn bit(wanted: bool, what: u64) -> u64 {
@@ -96,6 +104,7 @@ impl<A: Arithmetic> Parts<'_, A> {
             | bit(!self.cones.is_empty(), CONES)
             | bit(!self.planes.is_empty(), PLANES)
             | bit(self.tree.is_some(), TREE)
+            | self.indirect.uses()
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)

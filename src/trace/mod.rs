@@ -1,10 +1,12 @@
 //! Tracing: from a camera's ray to its radiance, the tree of rays on an explicit stack.
 
 mod direct;
+mod indirect;
 mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod site;
 mod visible;
 mod work;
 

@@ -279,6 +279,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn share(a: I16F16, inverse: &FixedInverse) -> Unit {
+        light::share(a, inverse)
+    }
+
+    #[inline(always)]
     fn over(r: &FixedRadius, v: &[I16F16; 3]) -> [Unit; 3] {
         let f = |v: I16F16| Unit::from_bits(r.divide(v.to_bits()));
         [f(v[0]), f(v[1]), f(v[2])]
@@ -369,6 +374,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn fraction(x: i32) -> Unit {
+        Unit::from_bits(x.wrapping_mul(2))
+    }
+
+    #[inline(always)]
     fn weight_of(u: Unit) -> Weight {
         Weight::from_bits(u.to_bits() >> 3)
     }
@@ -383,6 +393,11 @@ impl Arithmetic for Fixed {
         let (r, w) = (r.to_bits() as u32, w.to_bits() as u32);
         let p = ((r >> 13).wrapping_mul(w) >> 1).wrapping_add((r & 0x1fff).wrapping_mul(w) >> 14);
         I16F16::from_bits(p as i32)
+    }
+
+    #[inline(always)]
+    fn over_weight(r: I16F16, w: Weight) -> I16F16 {
+        I16F16::from_bits(kernel::ratio(r.to_bits(), w.to_bits(), 14) as i32)
     }
 
     #[inline(always)]
@@ -410,6 +425,21 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn to_q16(r: I16F16) -> i32 {
         r.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_q16(bits: i32) -> I16F16 {
+        I16F16::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn to_q17(u: Unit) -> i32 {
+        u.to_bits()
+    }
+
+    #[inline(always)]
+    fn ratio_q16(a: I16F16, b: I16F16) -> u32 {
+        kernel::ratio(a.to_bits(), b.to_bits(), 16)
     }
 
     #[inline(always)]
