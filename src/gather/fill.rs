@@ -81,11 +81,8 @@ const _: () = assert!(size_of::<Draft<crate::math::Fixed>>() == 52);
 
 impl<A: Arithmetic> Draft<A> {
     /// None yet: what the memory is initialised with.
-    pub const NONE: Self = Self {
-        record: Record::NONE,
-        origin: [A::NO_LENGTH; 3],
-        leaving: Leaving::NOTHING,
-    };
+    pub const NONE: Self =
+        Self { record: Record::NONE, origin: [A::NO_LENGTH; 3], leaving: Leaving::NOTHING };
 }
 
 /// Where a record's rays start.
@@ -279,7 +276,8 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
                 let [r, g, b] = radiance.map(|c| A::to_q16(c) >> 2);
                 let near = A::ratio_q16(farthest, distance).min(most_near);
                 near_q16 = near_q16.wrapping_add(u64::from(near));
-                *seen = Seen { radiance_q16: r.wrapping_add(g + g).wrapping_add(b), near_q16: near };
+                *seen =
+                    Seen { radiance_q16: r.wrapping_add(g + g).wrapping_add(b), near_q16: near };
             }
             gradients.sector(sector, seen);
         }
@@ -332,8 +330,8 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     }
 }
 
-/// The length of a vector of at most 2²⁰ along each axis, within 2⁻⁸ of it.
+/// The length of a vector of at most 2²² along each axis, within 2⁸.
 fn length(v: &[i32; 2]) -> i32 {
-    let square = |x: i32| (x >> 6).wrapping_mul(x >> 6) as u32;
-    (sqrt_u32(square(v[0]).wrapping_add(square(v[1]))) << 6) as i32
+    let square = |x: i32| (x >> 7).wrapping_mul(x >> 7) as u32;
+    (sqrt_u32(square(v[0]).wrapping_add(square(v[1]))) << 7) as i32
 }

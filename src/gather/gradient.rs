@@ -15,6 +15,7 @@
 //! mean of the channels, both in Q16.
 
 use super::hemisphere::{MAX_RINGS, Strata, cosine_q15, part_q16, root_q16, sine_q15};
+use crate::math::sqrt_u32;
 
 /// What a ray of the hemisphere found.
 #[derive(Clone, Copy, Debug, Default)]
@@ -86,12 +87,10 @@ impl Gradients {
                 let factor = (2 * factor).checked_div(sectors).unwrap_or(0);
                 let step = i64::from(cell.radiance_q16) - i64::from(inner.radiance_q16);
                 let near = cell.near_q16.max(inner.near_q16);
-                radial_q16 =
-                    radial_q16.wrapping_add(times(factor, near).wrapping_mul(step) >> 16);
+                radial_q16 = radial_q16.wrapping_add(times(factor, near).wrapping_mul(step) >> 16);
             }
             inner = *cell;
-            // tan θ in the middle of the ring: √((2j + 1)/(2M − 2j − 1)), at most 6
-            let tangent = root_of_ratio(2 * ring + 1, 2 * (rings - ring) - 1);
+            let tangent = tangent_q16(ring, rings);
             let part = i64::from(cell.radiance_q16).wrapping_mul(i64::from(tangent)) >> 16;
             turning_q16 = turning_q16.wrapping_add(part);
         }
@@ -107,22 +106,34 @@ impl Gradients {
     }
 
     /// Both gradients as parts of a mean radiance in Q16, in Q16 along the tangents, the
-    /// translational one for the given length.
+    /// translational one for the given length; each at most 64.
     pub(super) fn relative(&self, mean_q16: i32) -> [[i32; 2]; 2] {
         let part = |x: i64| {
-            let most = 1 << 20;
+            let most = 1 << 22;
             let q16 = (x << 16).checked_div(i64::from(mean_q16)).unwrap_or(0);
-            if q16 > most { most } else if q16 < -most { -most } else { q16 }
+            if q16 > most {
+                most
+            } else if q16 < -most {
+                -most
+            } else {
+                q16
+            }
         };
         [self.translation_q16, self.rotation_q16].map(|v| v.map(|x| part(x) as i32))
     }
 }
 
-/// √(a/b) in Q16.
-fn root_of_ratio(a: u32, b: u32) -> u32 {
-    // both odd and at most 31: a quotient of 12 fraction bits fits before its root is taken
-    let quotient_q26 = (a << 26).checked_div(b).unwrap_or(0);
-    crate::math::sqrt_u32(quotient_q26) << 3
+/// tan θ in a ring, in Q16: that of its middle, √((2j + 1)/(2M − 2j − 1)). In the lowest one, where
+/// it rises beyond all bounds, its mean, 2√M − 1/(3√M) and less than 1/(20·M) more: with s = cos²,
+/// M·∫√((1 − s)/s) ds from 0 to 1/M.
+fn tangent_q16(ring: u32, rings: u32) -> u32 {
+    if ring + 1 == rings {
+        let root = sqrt_u32(rings << 26) << 3;
+        return (2 * root).saturating_sub((root / 3).checked_div(rings).unwrap_or(0));
+    }
+    // both odd and at most 31
+    let quotient_q26 = ((2 * ring + 1) << 26).checked_div(2 * (rings - ring) - 1).unwrap_or(0);
+    sqrt_u32(quotient_q26) << 3
 }
 
 /// Adds a vector of this length at this angle.

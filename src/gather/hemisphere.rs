@@ -11,15 +11,16 @@ use crate::math::{Arithmetic, hash, spread, sqrt_u32};
 /// More rings than this aren't kept while gradients are summed.
 pub(crate) const MAX_RINGS: usize = 16;
 
-/// sin(2πt/2¹⁶) in Q15, within 2⁻¹³: the quarter wave's odd polynomial.
+/// sin(2πt/2¹⁶) in Q15, within 2⁻¹³: the quarter wave's odd polynomial (Hastings,
+/// "Approximations for digital computers", 1955).
 #[inline]
 pub(crate) fn sine_q15(t_q16: u32) -> i32 {
     let within = (t_q16 & 0x3fff) as i32;
     let x = if t_q16 & 0x4000 != 0 { 0x4000 - within } else { within };
     // x in Q14 quarters: the coefficients of sin(πx/2), in Q15
     let x2 = x.wrapping_mul(x) >> 14;
-    let p = 2611 - (x2.wrapping_mul(153) >> 14);
-    let p = 21_167 - (x2.wrapping_mul(p) >> 14);
+    let p = 2603 - (x2.wrapping_mul(142) >> 14);
+    let p = 21_165 - (x2.wrapping_mul(p) >> 14);
     let p = 51_472 - (x2.wrapping_mul(p) >> 14);
     let sine = x.wrapping_mul(p) >> 14;
     let sine = if sine > 32_767 { 32_767 } else { sine };
@@ -106,9 +107,8 @@ impl Strata {
     pub(crate) fn direction(&self, ring: u32, sector: u32, seed: u32) -> [i32; 3] {
         let bits = hash(seed ^ hash(spread(ring, sector)));
         let (u, v) = (bits & 0xffff, bits >> 16);
-        let within = |i: u32, n: u32, part: u32| {
-            (i << 16).wrapping_add(part).checked_div(n).unwrap_or(0)
-        };
+        let within =
+            |i: u32, n: u32, part: u32| (i << 16).wrapping_add(part).checked_div(n).unwrap_or(0);
         lifted(within(ring, self.rings, u), within(sector, self.sectors, v))
     }
 
@@ -142,9 +142,9 @@ mod tests {
             let n = [a.cos() * b.sin(), a.sin() * b.sin(), b.cos()].map(&unit);
             let [t, u] = tangents::<A>(&n);
             let dot = |a: &[A::Unit; 3], b: &[A::Unit; 3]| Into::<f64>::into(A::dot(a, b));
-            for (x, y, wanted) in [
-                (&t, &t, 1.0), (&u, &u, 1.0), (&t, &u, 0.0), (&t, &n, 0.0), (&u, &n, 0.0),
-            ] {
+            for (x, y, wanted) in
+                [(&t, &t, 1.0), (&u, &u, 1.0), (&t, &u, 0.0), (&t, &n, 0.0), (&u, &n, 0.0)]
+            {
                 assert!((dot(x, y) - wanted).abs() < tolerance, "{n:?}: {t:?} {u:?}");
             }
             assert!((dot(&cross::<A>(&t, &u), &n) - 1.0).abs() < tolerance);

@@ -33,9 +33,9 @@ pub struct GatheringSpec {
 }
 
 impl GatheringSpec {
-    /// 65 rays a record, a = 0.25, one bounce, for a scene some ten units across.
+    /// 65 rays a record, a = 0.2, one bounce, for a scene some ten units across.
     pub const DEFAULT: Self = Self {
-        error: 0.25,
+        error: 0.2,
         rings: 5,
         sectors: 13,
         nearest: 0.25,

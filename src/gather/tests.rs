@@ -1,7 +1,7 @@
+use super::fill::Place;
 use super::*;
 use crate::math::Fixed;
-use super::fill::Place;
-use crate::scene::{Camera, Light, LightSpec, Material, MaterialSpec, Parts, Scene};
+use crate::scene::{Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Scene};
 use crate::shape::{Leaving, Polygon, Sphere};
 use crate::tally::Counts;
 use crate::trace::Work;
@@ -15,10 +15,8 @@ macro_rules! integrating_sphere {
         #[test]
         fn $name() {
             let spheres = [Sphere::<$a>::new([0.0; 3], 1.0, 0)];
-            let materials = [Material::<$a>::new(MaterialSpec {
-                diffuse: [0.5; 3],
-                ..MaterialSpec::BLACK
-            })];
+            let materials =
+                [Material::<$a>::new(MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK })];
             let lights = [Light::<$a>::point([0.3, 0.0, 0.0], [1.0; 3])];
             let scene = Scene::<$a>::new(Parts {
                 spheres: &spheres,
@@ -27,8 +25,7 @@ macro_rules! integrating_sphere {
                 ..Parts::EMPTY
             })
             .expect("a scene");
-            let camera =
-                Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
+            let camera = Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
             for (bounces, wanted) in [(1, 0.25), (10, 0.5)] {
                 let spec = GatheringSpec {
                     error: 0.25,
@@ -41,10 +38,11 @@ macro_rules! integrating_sphere {
                 let mut counts = Counts::default();
                 let mut pool = vec![Record::<$a>::NONE; 600];
                 let mut drafts = vec![Draft::<$a>::NONE; 600];
-                let cache = Gatherer::new(&scene, Gathering::<$a>::new(spec), &mut work, &mut counts)
-                    .expect("settings")
-                    .fill(&camera, (160, 120), &mut pool, &mut drafts)
-                    .expect("memory");
+                let cache =
+                    Gatherer::new(&scene, Gathering::<$a>::new(spec), &mut work, &mut counts)
+                        .expect("settings")
+                        .fill(&camera, (160, 120), &mut pool, &mut drafts)
+                        .expect("memory");
                 let (mut mean, mut worst) = (0.0, 0.0f64);
                 for record in cache.records() {
                     let e: f64 = record.irradiance()[0].into();
@@ -64,8 +62,8 @@ integrating_sphere!(integrating_sphere_in_fixed, Fixed);
 integrating_sphere!(integrating_sphere_in_f32, f32);
 integrating_sphere!(integrating_sphere_in_f64, f64);
 
-/// A floor before a lit wall: how the gradients of a record say the irradiance changes, and how it
-/// does.
+/// A floor before a lit wall, under a sky: how the gradients of a record say the irradiance changes,
+/// and how it does.
 #[test]
 fn gradients_are_the_change() {
     type A = f64;
@@ -81,13 +79,14 @@ fn gradients_are_the_change() {
         edges: &edges,
         materials: &materials,
         lights: &lights,
+        background: Background::<A>::uniform([0.2; 3]),
         ..Parts::EMPTY
     })
     .expect("a scene");
     let gathering = Gathering::<A>::new(GatheringSpec {
         rings: 16,
         sectors: 64,
-        farthest: 100.0,
+        farthest: 10.0,
         ..GatheringSpec::DEFAULT
     });
     let mut work = Work::<A, 4>::new();
@@ -109,7 +108,8 @@ fn gradients_are_the_change() {
     };
     let (e, t, r) = at([0.0; 3], [0.0, 1.0, 0.0]);
     let h = 0.1;
-    let change = |a: (f64, [f64; 3], [f64; 3]), b: (f64, [f64; 3], [f64; 3])| (a.0 - b.0) / (2.0 * h);
+    let change =
+        |a: (f64, [f64; 3], [f64; 3]), b: (f64, [f64; 3], [f64; 3])| (a.0 - b.0) / (2.0 * h);
     let up = [0.0, 1.0, 0.0];
     let along_x = change(at([h, 0.0, 0.0], up), at([-h, 0.0, 0.0], up));
     let along_z = change(at([0.0, 0.0, h], up), at([0.0, 0.0, -h], up));
@@ -117,7 +117,7 @@ fn gradients_are_the_change() {
     assert!((t[0] - along_x).abs() < 0.1 * along_x, "{t:?}: {along_x}");
     assert!((t[2] - along_z).abs() < 0.1 * along_x && t[1].abs() < 1e-3, "{t:?}: {along_z}");
     // the normal bent towards the wall: N × N' is −z
-    let bent = |s: f64| at([0.0; 3], [(s * h).sin(), (s * h).cos(), 0.0]);
+    let mut bent = |s: f64| at([0.0; 3], [(s * h).sin(), (s * h).cos(), 0.0]);
     let turned = change(bent(1.0), bent(-1.0));
     assert!((-r[2] - turned).abs() < 0.1 * turned, "{r:?}: {turned}");
     assert!(r[0].abs() < 0.1 * turned && r[1].abs() < 0.1 * turned, "{r:?}: {turned}");

@@ -16,9 +16,9 @@
 mod constant;
 mod fixed;
 mod float;
-mod hash;
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 mod hardware;
+mod hash;
 mod log;
 mod root;
 mod vector;
@@ -31,8 +31,8 @@ pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, F
 pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedSpot};
 pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatSpot};
 pub(crate) use hash::{hash, spread};
-pub(crate) use root::{normalize as normalize_u32, sqrt_u32};
 pub use root::sqrt_f32;
+pub(crate) use root::{normalize as normalize_u32, sqrt_u32};
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
 
 pub(crate) use fixed::constructors as fixed_constructors;

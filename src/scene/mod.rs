@@ -38,6 +38,7 @@ pub use camera::{Camera, Row, View};
 pub use error::SceneError;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
+pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
 
 pub(crate) use light::Incident;
@@ -160,6 +161,8 @@ impl<A: Arithmetic> Parts<'_, A> {
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(crate) parts: Parts<'a, A>,
+    /// The shapes of the parts.
+    pub(crate) shapes: Shapes<'a, A>,
     /// All materials stop shadow rays, so that a shadow ray may end at the first hit.
     pub(crate) opaque_shadows: bool,
     /// The number of bounded shapes, and of the first plane.
@@ -191,13 +194,17 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
     /// # Errors
     /// What doesn't fit together, or isn't in `USES`.
     pub const fn try_tailored(parts: Parts<'a, A>) -> Result<Self, SceneError> {
-        if let Err(error) = shapes::check(&parts) {
+        let shapes = parts.shapes();
+        if let Err(error) = shapes.check(parts.materials.len()) {
             return Err(error);
         }
-        if let Some(tree) = &parts.tree
-            && tree.shapes() != parts.bounded()
-        {
-            return Err(SceneError::Tree { shapes: tree.shapes() });
+        let mut i = 0;
+        while i < parts.planes.len() {
+            let id = parts.planes[i].material_id();
+            if id.index() >= parts.materials.len() {
+                return Err(SceneError::Material { index: id.index() as u16 });
+            }
+            i += 1;
         }
         let mut opaque_shadows = true;
         let mut i = 0;
@@ -217,7 +224,7 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
         if missing != 0 {
             return Err(SceneError::Uses { missing });
         }
-        Ok(Self { parts, opaque_shadows, bounded: parts.bounded() })
+        Ok(Self { parts, shapes, opaque_shadows, bounded: shapes.bounded() })
     }
 
     /// The same for scenes in `static`s: a mistake doesn't compile.

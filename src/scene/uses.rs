@@ -70,6 +70,19 @@ pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
 /// [`Indirect::Cache`](crate::gather::Indirect::Cache).
 pub const IRRADIANCE_CACHE: u64 = 1 << 32;
 
+// The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
+// adds what its pictures are sampled by, see `Sampling::uses`.
+
+/// [`Sampling::Grid`](crate::frame::Sampling::Grid) and
+/// [`Sampling::Jittered`](crate::frame::Sampling::Jittered).
+pub const CELLS: u64 = 1 << 63;
+/// [`Sampling::Corners`](crate::frame::Sampling::Corners).
+pub const CORNERS: u64 = 1 << 62;
+/// [`Sampling::Adaptive`](crate::frame::Sampling::Adaptive).
+pub const ADAPTIVE: u64 = 1 << 61;
+/// [`Sampling::Sparse`](crate::frame::Sampling::Sparse).
+pub const SPARSE: u64 = 1 << 60;
+
 /// Whether `uses` has all bits of `what`.
 #[inline(always)]
 pub(crate) const fn has(uses: u64, what: u64) -> bool {
@@ -86,6 +99,18 @@ pub(crate) const fn has_others(uses: u64) -> bool {
 #[inline(always)]
 pub(crate) const fn has_indirect(uses: u64) -> bool {
     uses & IRRADIANCE_CACHE != 0
+}
+
+/// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.
+#[inline(always)]
+pub(crate) const fn has_samplings(uses: u64) -> bool {
+    uses & (CELLS | CORNERS | ADAPTIVE | SPARSE) != 0
+}
+
+/// Whether pictures may be sampled by what rays hit.
+#[inline(always)]
+pub(crate) const fn has_signatures(uses: u64) -> bool {
+    uses & (ADAPTIVE | SPARSE) != 0
 }
 
 const fn bit(wanted: bool, what: u64) -> u64 {

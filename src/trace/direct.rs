@@ -48,7 +48,10 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         }
         at.shadow.direction = direction;
         tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, walk, tally) else { continue };
+        let Some(share) = visible(scene, &at.shadow, distance, walk, tally) else {
+            tally.shadowed(number, at.depth);
+            continue;
+        };
         let diffuse = at.material.diffuse;
         let mut factor = diffuse.map(|k| A::weight(k, cosine));
         if has(USES, uses::HIGHLIGHTS) && at.material.shines && at.highlights {

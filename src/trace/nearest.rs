@@ -4,7 +4,7 @@ use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
-use crate::scene::{Parts, Scene};
+use crate::scene::{Scene, Shapes};
 use crate::shape::{Meeting, Ray};
 use crate::tally::Tally;
 
@@ -33,7 +33,7 @@ impl<A: Arithmetic> Hit<A> {
 
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
 struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
-    parts: &'r Parts<'a, A>,
+    shapes: &'r Shapes<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
     best: Hit<A>,
@@ -45,7 +45,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     fn test_any(&mut self, id: u32) {
         self.tally.test();
         let limit = self.best.distance;
-        self.best.take(meet_any::<A, USES>(self.parts, id, self.ray, &self.coarse, limit), id);
+        self.best.take(meet_any::<A, USES>(self.shapes, id, self.ray, &self.coarse, limit), id);
     }
 }
 
@@ -57,7 +57,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        match self.parts.spheres.get(id as usize) {
+        match self.shapes.spheres.get(id as usize) {
             Some(sphere) => {
                 self.tally.test();
                 let limit = self.best.distance;
@@ -78,21 +78,21 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 /// Out of line and by value, so that the short loops keep their numbers in registers.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+    shapes: &Shapes<'_, A>,
+    bounded: u32,
     ray: Ray<A>,
     best: Hit<A>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Hit<A> {
-    let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search::<A, T, USES> { parts, ray: &ray, coarse, best, tally };
+    let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, best, tally };
     if has(USES, uses::TREE)
-        && let Some(tree) = &parts.tree
+        && let Some(tree) = &shapes.tree
     {
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
     } else {
-        for id in parts.spheres.len() as u32..scene.bounded {
+        for id in shapes.spheres.len() as u32..bounded {
             search.test_any(id);
         }
     }
@@ -108,7 +108,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Hit<A>> {
-    let parts = &scene.parts;
+    let (parts, shapes) = (&scene.parts, &scene.shapes);
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     // Planes first: their distance bounds the walk.
@@ -119,19 +119,19 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
         best.take(meet(plane, id, ray, &coarse, best.distance), id);
         id += 1;
     }
-    let tree = has(USES, uses::TREE) && parts.tree.is_some();
+    let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let mut id = 0;
-        for sphere in parts.spheres {
+        for sphere in shapes.spheres {
             tally.test();
             best.take(meet(sphere, id, ray, &coarse, best.distance), id);
             id += 1;
         }
         if has_others(USES) && id != scene.bounded {
-            best = search(scene, *ray, best, walk, tally);
+            best = search::<A, T, USES>(shapes, scene.bounded, *ray, best, walk, tally);
         }
     } else {
-        best = search(scene, *ray, best, walk, tally);
+        best = search::<A, T, USES>(shapes, scene.bounded, *ray, best, walk, tally);
     }
     if best.distance < limit { Some(best) } else { None }
 }

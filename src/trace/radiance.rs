@@ -180,8 +180,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         } else {
             (&material.ambient, scene.parts.ambient.0, Term::Ambient)
         };
-        let radiance =
-            rgb(&rgb(share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
+        let radiance = rgb(&rgb(share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
         tally.term::<A>(term, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 
@@ -189,7 +188,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let outside = Ray {
             origin: A::leave(&p, &surface.geometric, hit.distance),
             direction: mirror,
-            leaving: Leaving { shape: hit.shape, inwards: surface.behind },
+            leaving: Leaving::back(hit.shape, &surface),
         };
         let shading = Shading {
             surface: &surface,
@@ -224,7 +223,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                         let ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
-                            leaving: Leaving { shape: hit.shape, inwards: !surface.behind },
+                            leaving: Leaving::through(hit.shape, &surface),
                         };
                         transmitted =
                             Some(Path { ray, weight, depth, kind: RayKind::Transmission });

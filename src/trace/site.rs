@@ -46,7 +46,7 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
         let outside = Ray {
             origin: A::leave(&position, &surface.geometric, hit.distance),
             direction: A::reflect(&ray.direction, &surface.normal, -surface.cosine),
-            leaving: Leaving { shape: hit.shape, inwards: surface.behind },
+            leaving: Leaving::back(hit.shape, &surface),
         };
         let mut next = None;
         if has(USES, uses::REFLECTION) && material.reflects {
@@ -58,7 +58,7 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
             next = Some(match through {
                 Some(direction) => {
                     let origin = A::leave(&position, &neg(&surface.geometric), hit.distance);
-                    let leaving = Leaving { shape: hit.shape, inwards: !surface.behind };
+                    let leaving = Leaving::through(hit.shape, &surface);
                     (RayKind::Transmission, Ray { origin, direction, leaving })
                 }
                 None => (RayKind::Reflection, outside),

@@ -5,7 +5,7 @@ use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
-use crate::scene::{Parts, Scene, Shadow};
+use crate::scene::{Scene, Shadow, Shapes};
 use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
 
@@ -14,7 +14,7 @@ const MAX_SHEETS: usize = 32;
 
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
 struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
-    parts: &'r Parts<'a, A>,
+    shapes: &'r Shapes<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
     limit: A::Length,
@@ -40,7 +40,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     #[inline(always)]
     fn test_any(&mut self, id: u32) -> bool {
         self.tally.test();
-        let meeting = meet_any::<A, USES>(self.parts, id, self.ray, &self.coarse, self.limit);
+        let meeting = meet_any::<A, USES>(self.shapes, id, self.ray, &self.coarse, self.limit);
         self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
     }
 
@@ -61,7 +61,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        match self.parts.spheres.get(id as usize) {
+        match self.shapes.spheres.get(id as usize) {
             Some(sphere) => {
                 self.tally.test();
                 let blocked = blocks(sphere, id, self.ray, &self.coarse, self.limit);
@@ -81,22 +81,22 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 /// for the nearest hit.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+    shapes: &Shapes<'_, A>,
+    bounded: u32,
     ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<u32> {
-    let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search::<A, T, USES> { parts, ray: &ray, coarse, limit, found: None, tally };
+    let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, limit, found: None, tally };
     if has(USES, uses::TREE)
-        && let Some(tree) = &parts.tree
+        && let Some(tree) = &shapes.tree
     {
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
         return search.found;
     }
-    (parts.spheres.len() as u32..scene.bounded).find(|&id| search.test_any(id))
+    (shapes.spheres.len() as u32..bounded).find(|&id| search.test_any(id))
 }
 
 /// The number of any shape along the ray nearer than `limit`.
@@ -108,12 +108,12 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<u32> {
-    let parts = &scene.parts;
+    let (parts, shapes) = (&scene.parts, &scene.shapes);
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let tree = has(USES, uses::TREE) && parts.tree.is_some();
+    let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let mut id = 0;
-        for sphere in parts.spheres {
+        for sphere in shapes.spheres {
             tally.test();
             if blocks(sphere, id, ray, &coarse, limit) {
                 return Some(id);
@@ -121,8 +121,8 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
             id += 1;
         }
     }
-    if tree || has_others(USES) && parts.spheres.len() as u32 != scene.bounded {
-        let found = search(scene, *ray, limit, walk, tally);
+    if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
+        let found = search::<A, T, USES>(shapes, scene.bounded, *ray, limit, walk, tally);
         if found.is_some() {
             return found;
         }
@@ -189,7 +189,7 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
             return None;
         }
         ray.origin = A::leave(&p, &neg(&surface.geometric), hit.distance);
-        ray.leaving = Leaving { shape: hit.shape, inwards: !surface.behind };
+        ray.leaving = Leaving::through(hit.shape, &surface);
         left = left - hit.distance;
     }
     None

@@ -15,7 +15,7 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::frame::{self, Dither, Output, Renderer, Sampling, Settings, Tone, Transfer};
+use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
 use whitted::gather::{Record, RecordSpec};
 use whitted::math::{self, Arithmetic, Fixed};
@@ -199,7 +199,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     tally: T,
 ) -> Option<()> {
     let mut work = any(Work::<A, 5>::default());
-    let mut samples = any([[A::BLACK; 3]; 64]);
+    let mut samples = any([Sample::NONE; 400]);
     let settings = Settings {
         depth: any(5),
         sampling: any(Sampling::Corners),

@@ -46,7 +46,7 @@ impl<A: Construct> Baked<A> {
             placement,
             shapes: Shapes::new(&placed)?,
             materials: materials(&placed)?,
-            lights: placed.lights.iter().map(light).collect::<Result<_, _>>()?,
+            lights: lights(&placed)?,
             ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
             background: background.map_err(|e| refused::<A>("the background", e, None))?,
@@ -111,7 +111,7 @@ impl<A: Construct> Baked<A> {
 
 fn refused<A: Construct>(what: &str, error: ShapeError, line: Option<usize>) -> Flaw {
     let why = format!("{error} (in {} arithmetic)", A::NAME);
-    Flaw { line, problem: Problem::Unrepresentable { what: what.into(), why } }
+    Flaw { line, file: None, problem: Problem::Unrepresentable { what: what.into(), why } }
 }
 
 fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw> {
@@ -143,7 +143,15 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
         })
         .map_err(refuse)
     };
-    document.materials.iter().map(make).collect()
+    let from = |i| document.file_of_material(i);
+    let all = document.materials.iter().enumerate();
+    all.map(|(i, m)| make(m).map_err(|flaw| flaw.within(from(i)))).collect()
+}
+
+fn lights<A: Construct>(document: &Document) -> Result<Vec<Light<A>>, Flaw> {
+    let from = |i| document.file_of_light(i);
+    let all = document.lights.iter().enumerate();
+    all.map(|(i, l)| light(l).map_err(|flaw: Flaw| flaw.within(from(i)))).collect()
 }
 
 fn light<A: Construct>(light: &document::Light) -> Result<Light<A>, Flaw> {

@@ -1,6 +1,7 @@
 //! One of every shape, light and sort of material, with an octree that the compiler builds.
 
 use super::A;
+use whitted::gather::Indirect;
 use whitted::octree::{Octree, OctreeBuffer};
 use whitted::scene::{
     Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
