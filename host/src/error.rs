@@ -176,7 +176,7 @@ impl fmt::Display for Problem {
             }
             Self::NotText => write!(f, "is not text (a scene file is UTF-8)"),
             Self::Format { ending } => {
-                write!(f, "unknown format \"{}\"; known: .toml, .nff", shown(ending))
+                write!(f, "unknown format \"{}\"; known: .toml, .nff, .obj", shown(ending))
             }
             Self::Circle => write!(f, "is included by itself: a scene can't contain itself"),
             Self::Empty => write!(f, "there is no scene in this file; it is empty"),

@@ -17,6 +17,8 @@ pub enum Format {
     Toml,
     /// Neutral File Format.
     Nff,
+    /// Wavefront OBJ.
+    Obj,
 }
 
 impl Format {
@@ -26,6 +28,7 @@ impl Format {
         match ending.as_str() {
             "toml" => Some(Self::Toml),
             "nff" => Some(Self::Nff),
+            "obj" => Some(Self::Obj),
             _ => None,
         }
     }
@@ -38,6 +41,7 @@ impl Format {
         match self {
             Self::Toml => crate::toml::parse(text, around),
             Self::Nff => crate::nff::parse(text),
+            Self::Obj => crate::obj::parse(text, around),
         }
     }
 }
@@ -90,6 +94,14 @@ impl Around {
         self.chain.last().map_or(Path::new(""), PathBuf::as_path)
     }
 
+    /// The file's bytes, whatever it is.
+    ///
+    /// # Errors
+    /// It can't be read, or is larger than it may be.
+    pub fn bytes(&self) -> Result<Vec<u8>, Problem> {
+        bytes(self.path())
+    }
+
     /// Reads the file.
     ///
     /// # Errors
@@ -136,13 +148,21 @@ fn load(path: &Path) -> Result<(Format, Vec<u8>), Problem> {
     let format = Format::of(path).ok_or_else(|| Problem::Format {
         ending: path.extension().unwrap_or_default().to_string_lossy().into_owned(),
     })?;
+    Ok((format, bytes(path)?))
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, Problem> {
+    let about = std::fs::metadata(path).map_err(Problem::Io)?;
+    if about.is_dir() {
+        return Err(Problem::Directory);
+    }
     let mut bytes = Vec::new();
     let mut file = File::open(path).map_err(Problem::Io)?.take(LARGEST + 1);
     file.read_to_end(&mut bytes).map_err(Problem::Io)?;
     if bytes.len() as u64 > LARGEST {
         return Err(Problem::TooLarge { bytes: about.len().max(LARGEST + 1), most: LARGEST });
     }
-    Ok((format, bytes))
+    Ok(bytes)
 }
 
 fn not_text(bytes: &[u8], at: usize) -> Flaw {

@@ -41,6 +41,7 @@ fn every_key_is_documented() {
         ),
         format!("{SMALLEST}{MATERIAL}{SPHERE}rotate = {{ axis = {point}, angle = 1, zzz = 1 }}\n"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}repeat = {{ count = 1, step = {point}, zzz = 1 }}\n"),
+        format!("mesh = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
         format!("include = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}[[zzz]]\n"),
     ];

@@ -151,7 +151,10 @@ const TOML: &[(&str, &str)] = &[
     ("[[include]]\nfile = \"x.stl\"", ":10: x.stl: can't be read"),
     ("[[include]]\nfile = \"bad.toml\"", ":10: include \"bad.toml\": this file is within that"),
     ("[[include]]\nscale = 3", ":9: key \"file\" of this include is missing"),
-    ("[[include]]\nfile = 3", ":10: found 3 for \"include\"; a text in quotes"),
+    ("[[include]]\nfile = 3", ":10: found 3 for \"file\"; a text in quotes"),
+    ("[[mesh]]\nfile = \"no.obj\"", ":10: no.obj: can't be read: No such file"),
+    ("[[mesh]]\nmaterial = \"red\"", ":9: key \"file\" of this mesh is missing"),
+    ("mesh = \"a.obj\"", ":9: unknown key \"mesh\"; known: material, center"),
     ("x = [", ":9: unclosed array"),
     ("x = \"abc", ":9: invalid basic string"),
 ];
@@ -174,12 +177,36 @@ const TOML_FILES: &[(&[u8], &str)] = &[
     (b"[camera]\neye = \"\xc3\x28\"\n", ":2: is not text"),
 ];
 
+/// Lines that are wrong after three positions, in OBJ.
+const OBJ: &[(&str, &str)] = &[
+    ("v 1 2", ":4: a number or name (position z) on this line is missing"),
+    ("v 1 2 x", ":4: found \"x\"; a finite number (position z)"),
+    ("v 1 2 nan", ":4: found \"nan\"; a finite number (position z)"),
+    ("v 1 2 1e9", ":4: position z 1000000000 is out of range"),
+    ("f 1 2", ":4: number of corners 2 is out of range: it must be 3 or more"),
+    ("f 1 2 4", ":4: position number 4 is out of range: it must be 1 to 3, or -1 to -3"),
+    ("f 1 2 0", ":4: position number 0 is out of range: it must be 1 to 3"),
+    ("f 1 2 -4", ":4: position number -4 is out of range"),
+    ("f 1 2 99999999999999999999", ":4: found \"99999999999999999999\"; position/texture/normal"),
+    ("f 1 2 3/1", ":4: texture coordinate number 1 is out of range: it must be left out: no"),
+    ("f 1 2 3//1", ":4: normal number 1 is out of range: it must be left out"),
+    ("f 1 2 //3", ":4: normal number 3 is out of range"),
+    ("f 1 2 x", ":4: found \"x\"; position/texture/normal, each a whole number"),
+    ("s red", ":4: found \"red\"; a smoothing group's number, or off"),
+    ("usemtl", ":4: a number or name (material) on this line is missing"),
+    ("solid teapot", ":4: unknown word \"solid\"; known: v, vt, vn, f"),
+    ("f 1 1 1", ": a face (f) with an area is missing"),
+    ("", ": a face (f) with an area is missing"),
+];
+
 /// Every case as a file: its name, its bytes, what the error says.
 fn cases() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let after = |start: &str, rest: &str| format!("{start}{rest}\n").into_bytes();
     let mut all = Vec::new();
     all.extend(NFF.iter().map(|(text, says)| ("bad.nff", after(VIEW, text), *says)));
     all.extend(NFF_FILES.iter().map(|(bytes, says)| ("bad.nff", bytes.to_vec(), *says)));
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    all.extend(OBJ.iter().map(|(text, says)| ("bad.obj", after(three, text), *says)));
     all.extend(TOML.iter().map(|(text, says)| ("bad.toml", after(GOOD, text), *says)));
     all.extend(TOML_FILES.iter().map(|(bytes, says)| ("bad.toml", bytes.to_vec(), *says)));
     all
@@ -233,8 +260,8 @@ fn what_is_no_scene_file() {
     for (scene, says) in [
         ("nowhere.toml", "nowhere.toml: can't be read: No such file"),
         ("folder.toml", "folder.toml: is a directory; a scene is a file"),
-        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff"),
-        ("scene", "scene: unknown format \"\"; known: .toml, .nff"),
+        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff, .obj"),
+        ("scene", "scene: unknown format \"\"; known: .toml, .nff, .obj"),
     ] {
         let output = whitted(place.path(), &["render", scene]);
         assert!(errors(&output).contains(says), "{}", errors(&output));

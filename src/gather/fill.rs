@@ -15,7 +15,7 @@ use super::gradient::{Gradients, Seen};
 use super::hemisphere::{MAX_RINGS, raised, tangents};
 use super::record::PackedRgb;
 use super::{Gathering, Indirect, IrradianceCache, Record};
-use crate::math::{Arithmetic, hash, rgb, sqrt_u32};
+use crate::math::{Arithmetic, hash, rgb, spread, sqrt_u32};
 use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Scene, View};
 use crate::shape::{Leaving, Ray};
@@ -271,7 +271,8 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
                 let up = strata.direction(ring, sector, seed);
                 let direction = raised::<A>(up, &frame, &normal);
                 let ray = Ray { origin, direction, leaving };
-                let (radiance, distance) = tracer.gather(ray, self.work, self.tally);
+                let key = hash(spread(seed, sector << 8 | ring));
+                let (radiance, distance) = tracer.with_key(key).gather(ray, self.work, self.tally);
                 sum = rgb(&sum, &radiance, A::gather);
                 let [r, g, b] = radiance.map(|c| A::to_q16(c) >> 2);
                 let near = A::ratio_q16(farthest, distance).min(most_near);

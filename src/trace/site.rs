@@ -41,8 +41,9 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
         tally.hit::<A>(kind, hit.shape, hit.distance);
         let mut position = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let (surface, id) = surface_at(self.scene, hit.shape, &ray, &meeting, &mut position)?;
-        let material = self.scene.material_at(id, &position)?;
+        let place = surface_at(self.scene, hit.shape, &ray, &meeting, &mut position)?;
+        let surface = place.surface;
+        let material = self.scene.material_at(place.material, &place.local)?;
         let outside = Ray {
             origin: A::leave(&position, &surface.geometric, hit.distance),
             direction: A::reflect(&ray.direction, &surface.normal, -surface.cosine),
