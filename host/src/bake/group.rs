@@ -83,6 +83,11 @@ impl<A: Construct> Groups<A> {
         self.places.iter().filter_map(make).collect()
     }
 
+    /// Words of all trees.
+    pub(super) fn tree_words(&self) -> usize {
+        self.shapes.iter().filter_map(Shapes::tree).map(|(words, _)| words).sum()
+    }
+
     /// The document's indices of the group and of its shape that has this number, counted from the
     /// first instance's first shape; how far it lies beyond the last one, if it does.
     pub(super) fn origin(&self, mut number: u32) -> Result<(usize, usize), u32> {

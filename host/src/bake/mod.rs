@@ -124,6 +124,11 @@ impl<A: Construct> Baked<A> {
         self.shapes.tree()
     }
 
+    /// Words of the octrees of all groups.
+    pub fn group_tree_words(&self) -> usize {
+        self.groups.tree_words()
+    }
+
     /// The document as it was placed.
     pub fn document(&self) -> &Document {
         &self.placed
