@@ -4,7 +4,7 @@
 //! n·end + r·|n⊥|, n⊥ being the part of n across the axis; an octant that lies wholly beyond that,
 //! or before the other side's, is missed (the separating axis theorem). Any direction proves it, and
 //! need not be exact as long as the reach along it is: here the axis, the three directions across
-//! the axis and a side of the cell, and the wall's normal towards the octant's middle. What no
+//! the axis and a side of the cell, and the wall's normal towards the octant. What no
 //! direction proves is listed: a little more than would be needed, never less.
 //!
 //! Directions have fifteen bits and differences of positions 29, so products fit an `i64`.
@@ -128,11 +128,27 @@ impl Cell {
             }
             i += 1;
         }
-        // The way from the axis to the middle, and the wall's normal there.
-        let way = direction(&minus(&middle, &round.ends[0]));
+        // The way from the axis to the octant's point that is nearest to where the axis comes
+        // nearest to its middle, and the wall's normal there.
         let square = dot(a, a);
         if square == 0 {
             return true;
+        }
+        let from = minus(&middle, &round.ends[0]);
+        let along = dot(&from, a);
+        let mut way = [0; 3];
+        let mut i = 0;
+        while i < 3 {
+            let on = over(along * a[i], square);
+            let (low, high) = (from[i] - half, from[i] + half);
+            way[i] = if on < low {
+                low
+            } else if on > high {
+                high
+            } else {
+                on
+            };
+            i += 1;
         }
         let (along, mut off) = (dot(&way, a), [0; 3]);
         let mut i = 0;

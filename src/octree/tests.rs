@@ -520,15 +520,14 @@ fn triangles_and_spheres_skip_cells_of_their_boxes() {
 #[test]
 fn cylinders_and_cones_skip_cells_of_their_boxes() {
     let cell = Cell { min: [0; 3], half: 1000, margin: 0 };
-    let thin = |r, q, hollow| {
-        let ends = [[0, 0, 100], [2000, 2000, 100]];
-        cell.octants(&Extent::Round { ends, radii: [r, q], hollow })
+    let along = |r, q| {
+        let ends = [[0, 100, 100], [1900, 2000, 100]];
+        cell.octants(&Extent::Round { ends, radii: [r, q], hollow: true })
     };
-    // Along the floor's diagonal it misses the other two corners, unless it is thick.
-    assert_eq!(thin(20, 20, true), 0b1001);
-    assert_eq!(thin(720, 720, true), 0b1111_1111);
-    // A cone that starts at a tip: thick enough at its end alone.
-    assert_eq!(thin(0, 90, true), 0b1001);
+    // Beside the floor's diagonal it misses one of the four, which lies 71 away.
+    assert_eq!([along(20, 20), along(90, 90), along(950, 950)], [0b1101, 0b1111, 0xff]);
+    // A cone is thick enough at its end alone.
+    assert_eq!([along(0, 90), along(0, 900) & 0xf], [0b1101, 0b1111]);
     // Within a wall is nothing, unless there are caps.
     let wide = |hollow| {
         let ends = [[500, 500, -9000], [500, 500, 9000]];
