@@ -6,7 +6,8 @@
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
-    Ambient, Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Scene, SceneError,
+    Ambient, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Light, LightSpec, Material,
+    MaterialSpec, Parts, Scene, SceneError,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
@@ -142,6 +143,12 @@ construct! {
     /// See [`Light`].
     fn new_light(spec: &LightSpec) -> Made<Light<Self>>
         = |A| Light::<A>::try_new(spec);
+    /// See [`AreaLight`].
+    fn new_area_light(spec: &AreaLightSpec<'_>) -> Made<AreaLight<Self>>
+        = |A| AreaLight::<A>::try_new(spec);
+    /// See [`AreaLight::fan`].
+    fn new_fan_corner(corners: &[Point], i: usize) -> Made<FanCorner<Self>>
+        = |A| AreaLight::<A>::try_fan(corners, i);
     /// See [`Camera`]; `tangent` is that of half the vertical angle from edge to edge.
     fn new_camera(eye: Point, at: Point, up: Point, tangent: f64) -> Made<Camera<Self>>
         = |A| Camera::<A>::try_look_at(eye, at, up, tangent);

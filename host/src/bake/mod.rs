@@ -8,13 +8,16 @@ pub use construct::Construct;
 pub use place::Placement;
 use shapes::Shapes;
 
+mod light;
+
+use light::Lights;
+
 use whitted::scene::{
-    Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
-    PatternSpec, Rules, Scene, Shadow,
+    Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow,
 };
 use whitted::shape::ShapeError;
 
-use crate::document::{self, Document, LightKind, ShadowThrough, Size};
+use crate::document::{self, Document, ShadowThrough, Size};
 use crate::error::{Flaw, Problem};
 
 /// A scene in an arithmetic, owned.
@@ -25,7 +28,7 @@ pub struct Baked<A: Construct> {
     placed: Document,
     shapes: Shapes<A>,
     materials: Vec<Material<A>>,
-    lights: Vec<Light<A>>,
+    lights: Lights<A>,
     ambient: Ambient<A>,
     background: Background<A>,
 }
@@ -42,11 +45,12 @@ impl<A: Construct> Baked<A> {
             document::Background::Color(color) => A::new_uniform(color),
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
+        let shapes = Shapes::new(&placed)?;
         let baked = Self {
             placement,
-            shapes: Shapes::new(&placed)?,
             materials: materials(&placed)?,
-            lights: placed.lights.iter().map(light).collect::<Result<_, _>>()?,
+            lights: Lights::new(&placed, &shapes)?,
+            shapes,
             ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
             background: background.map_err(|e| refused::<A>("the background", e, None))?,
@@ -64,7 +68,10 @@ impl<A: Construct> Baked<A> {
         let rules = &self.placed.rules;
         A::new_scene(Parts {
             materials: &self.materials,
-            lights: &self.lights,
+            lights: &self.lights.points,
+            area_lights: &self.lights.areas,
+            light_corners: &self.lights.corners,
+            light_jitter: rules.light_jitter,
             ambient: self.ambient,
             background: self.background,
             rules: Rules {
@@ -145,27 +152,4 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
         .map_err(refuse)
     };
     document.materials.iter().map(make).collect()
-}
-
-fn light<A: Construct>(light: &document::Light) -> Result<Light<A>, Flaw> {
-    let weakens = |falloff| match falloff {
-        document::Falloff::None => Falloff::None,
-        document::Falloff::InverseSquare => Falloff::InverseSquare,
-    };
-    let intensity = light.color;
-    let spec = match light.kind {
-        LightKind::Point { position, falloff } => {
-            LightSpec::Point { position, intensity, falloff: weakens(falloff) }
-        }
-        LightKind::Directional { direction } => LightSpec::Directional { direction, intensity },
-        LightKind::Spot { position, direction, inner, outer, falloff } => LightSpec::Spot {
-            position,
-            direction,
-            intensity,
-            falloff: weakens(falloff),
-            cos_inner: inner.to_radians().cos(),
-            cos_outer: outer.to_radians().cos(),
-        },
-    };
-    A::new_light(&spec).map_err(|error| refused::<A>("the light", error, Some(light.line)))
 }

@@ -234,6 +234,11 @@ impl<A: Construct> Shapes<A> {
         self.planes.origins.get(left).copied()
     }
 
+    /// The number of the shape of this index in the document.
+    pub(super) fn number(&self, index: usize) -> Option<u32> {
+        (0..).map_while(|n| Some((n, self.origin(n)?))).find(|&(_, o)| o == index).map(|(n, _)| n)
+    }
+
     /// Words and levels of the tree, if there is one.
     pub(super) fn tree(&self) -> Option<(usize, u8)> {
         self.tree.as_ref().map(|tree| (tree.words.len(), tree.levels))

@@ -18,7 +18,7 @@ mod vector;
 
 pub use background::Background;
 pub use camera::{Camera, Span};
-pub use light::{Falloff, Light, LightKind};
+pub use light::{Area, Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
 pub use rules::Rules;
 pub use shape::{Body, Shape};

@@ -19,6 +19,8 @@ pub struct Rules {
     pub cutoff: f64,
     /// The largest depth; the ray from the eye has depth 1.
     pub depth: u8,
+    /// The seed by which shadow rays to area lights are moved at random, if they are.
+    pub light_jitter: Option<u16>,
 }
 
 impl Rules {
@@ -34,6 +36,7 @@ impl Rules {
         lossy_total_reflection: false,
         cutoff: 1.0 / 255.0,
         depth: 5,
+        light_jitter: Some(0),
     };
 
     /// What a file in Neutral File Format means.
@@ -45,5 +48,6 @@ impl Rules {
         lossy_total_reflection: false,
         cutoff: 0.0,
         depth: 5,
+        light_jitter: Some(0),
     };
 }

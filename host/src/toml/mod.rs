@@ -39,9 +39,10 @@ pub fn parse(text: &str) -> Result<Document, Flaw> {
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
     let names = Names::read(&tables(&scene, "material")?)?;
-    let materials = names.materials()?;
+    let mut materials = names.materials()?;
     let lights = tables(&scene, "light")?;
-    let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
+    let mut lights: Vec<_> =
+        lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
     let mut shapes = Vec::new();
     for (kind, read) in body::KINDS {
         for table in tables(&scene, kind)? {
@@ -65,6 +66,10 @@ pub fn parse(text: &str) -> Result<Document, Flaw> {
     }
     // The kinds were read one after the other; numbers go by the file's order.
     shapes.sort_by_key(|shape| shape.line);
+    for light in &mut lights {
+        light::show(light, &mut materials, &mut shapes);
+    }
+    let lights = lights.into_iter().map(|light| light.light).collect();
     let warnings = Vec::new();
     Ok(Document { camera, size, background, ambient, rules, materials, lights, shapes, warnings })
 }
@@ -111,6 +116,10 @@ fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
         depth: table.get("depth").map_or(Ok(like.depth), |v| {
             v.count("depth", 1, Rules::DEEPEST.into()).map(|depth| depth as u8)
         })?,
+        light_jitter: {
+            let seed = table.get("seed").map_or(Ok(0), |v| v.count("seed", 0, 65535))?;
+            table.flag("light_jitter", true)?.then_some(seed as u16)
+        },
     };
     table.done()?;
     Ok((size, rules))
