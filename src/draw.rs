@@ -1,8 +1,8 @@
 //! The picture as an image of embedded-graphics: the one file that knows it.
 
-use crate::frame::{Dither, FrameError, Output, Pixel, Renderer, Settings};
+use crate::frame::{Dither, FrameError, Output, Pixel, Renderer, Sample, Settings};
 use crate::frame::{Gray1, Gray4, Gray8, Rgb565, Rgb888};
-use crate::math::{Arithmetic, Rgb};
+use crate::math::Arithmetic;
 use crate::scene::{Camera, Scene, uses};
 use crate::tally::Tally;
 use crate::trace::Work;
@@ -93,7 +93,7 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, const USES: u64>
     Picture<'a, A, C, MAX_DEPTH, (), USES>
 {
     /// A picture of a scene in sRGB. `samples` is memory for
-    /// [`Sampling::samples`](crate::frame::Sampling::samples) radiances.
+    /// [`Sampling::samples`](crate::frame::Sampling::samples) samples.
     ///
     /// # Errors
     /// A size, depth or memory that doesn't fit.
@@ -102,7 +102,7 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, const USES: u64>
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
-        samples: &'a mut [Rgb<A::Radiance>],
+        samples: &'a mut [Sample<A>],
     ) -> Result<Self, FrameError> {
         let renderer = Renderer::new(scene, camera, settings, work, samples)?;
         Ok(Self::from_renderer(renderer, Output::SRGB))

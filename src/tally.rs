@@ -36,6 +36,9 @@ pub enum Term {
 }
 
 /// What the tracer reports. Every method does nothing unless overridden, and costs nothing then.
+///
+/// A tally that stands before another, as the samplers' does, hands every report on: a method added
+/// here is added to `frame/sample.rs` too.
 pub trait Tally {
     /// A ray is traced; `weight` is the product of the coefficients down the tree, and the
     /// camera's ray has depth 1.
@@ -56,6 +59,10 @@ pub trait Tally {
     /// A contribution to the pixel, the weight down the tree included.
     #[inline(always)]
     fn term<A: Arithmetic>(&mut self, _term: Term, _radiance: &Rgb<A::Radiance>) {}
+
+    /// Nothing of light `light`, which the surface faces, arrives at the hit of a ray of this depth.
+    #[inline(always)]
+    fn shadowed(&mut self, _light: u16, _depth: u8) {}
 
     /// A node of the octree is visited.
     #[inline(always)]
@@ -95,6 +102,17 @@ impl Counts {
     /// All rays.
     pub fn rays(&self) -> u64 {
         self.primary + self.reflection + self.transmission + self.shadow + self.ambient
+    }
+}
+
+/// Counts all rays together, for deadlines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCount(pub u32);
+
+impl Tally for RayCount {
+    #[inline(always)]
+    fn ray<A: Arithmetic>(&mut self, _: RayKind, _: u8, _: &Ray<A>, _: &Rgb<A::Weight>) {
+        self.0 = self.0.wrapping_add(1);
     }
 }
 

@@ -315,13 +315,13 @@ fn frames() {
         assert_eq!(error(settings, 0), Some(FrameError::Depth { depth, max: 5 }));
     }
     let corners = Settings { sampling: Sampling::Corners, ..Settings::new(4, 4) };
-    assert_eq!(error(corners, 4), Some(FrameError::Samples { needed: 5 }));
-    assert_eq!(error(corners, 5), None);
+    assert_eq!(error(corners, 5), Some(FrameError::Samples { needed: 6 }));
+    assert_eq!(error(corners, 6), None);
     assert_eq!(FrameError::Size.to_string(), "a picture has 1 to 16384 pixels each way");
     let message = FrameError::Depth { depth: 6, max: 5 }.to_string();
     assert_eq!(message, "depth 6 isn't within 1 and the memory's 5");
-    let message = FrameError::Samples { needed: 5 }.to_string();
-    assert_eq!(message, "this sampling must remember 5 radiances");
+    let message = FrameError::Samples { needed: 6 }.to_string();
+    assert_eq!(message, "this sampling must remember 6 samples");
 }
 
 #[test]

@@ -7,7 +7,7 @@
 mod common;
 
 use common::scenes::{Shot, Shots};
-use whitted::frame::{Renderer, Sampling, Settings};
+use whitted::frame::{Renderer, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::scene::Scene;
 use whitted::trace::Work;
@@ -47,7 +47,7 @@ fn checksum(bytes: &[u8]) -> u64 {
 fn picture<A: Shots>(scene: &Scene<'_, A>, shot: &Shot<A>, sampling: Sampling) -> Vec<u8> {
     let settings = Settings { depth: shot.depth, sampling, ..Settings::new(WIDTH, HEIGHT) };
     let mut work = Work::<A, 5>::new();
-    let mut samples = vec![[A::BLACK; 3]; sampling.samples(WIDTH)];
+    let mut samples = vec![Sample::NONE; sampling.samples(WIDTH)];
     let mut renderer =
         Renderer::new(scene, shot.camera, settings, &mut work, &mut samples).expect("settings");
     let mut bytes = Vec::new();

@@ -6,7 +6,7 @@ mod common;
 use common::FromF64;
 use common::make::{Body, Make, Shapes, body};
 use common::random::Random;
-use whitted::frame::{Gray4, Output, Renderer, Rgb565, Sampling, Settings};
+use whitted::frame::{Gray4, Output, Renderer, Rgb565, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::octree::{BuildError, Limits};
 use whitted::scene::{Falloff, LightSpec, MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
@@ -51,6 +51,7 @@ fn material(random: &mut Random) -> MaterialSpec {
         transmission: coefficients(random, 1.0),
         index_front: index(random),
         index_behind: index(random),
+        emission: coefficients(random, 1024.0),
         shadow: [Shadow::Opaque, Shadow::Filtered, Shadow::None][random.below(3) as usize],
         pattern: match random.below(3) {
             0 => Some(PatternSpec {
@@ -154,7 +155,7 @@ fn draw<A: FromF64>(
     let depth = 1 + random.below(8) as u8;
     let settings = Settings { depth, sampling, ..Settings::new(width, height) };
     let mut work = Work::<A, 8>::new();
-    let mut samples = vec![[A::BLACK; 3]; sampling.samples(width)];
+    let mut samples = vec![Sample::NONE; sampling.samples(width)];
     let counts = Counts::default();
     let mut renderer =
         Renderer::with_tally(scene, camera, settings, &mut work, &mut samples, counts)

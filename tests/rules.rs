@@ -4,7 +4,7 @@ mod common;
 
 use common::make::{Body, Make, Shapes};
 use common::{radiance, ray, weight};
-use whitted::frame::{FrameError, Renderer, Sampling, Settings};
+use whitted::frame::{FrameError, Renderer, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::scene::{Background, Falloff, LightSpec, MaterialSpec, Parts, Rules, Scene};
 use whitted::tally::Counts;
@@ -351,7 +351,7 @@ fn counts_add_up<A: Make>() {
         for (sampling, rays) in [(Sampling::Center, 12 * 10), (Sampling::Corners, 13 * 11)] {
             let settings = Settings { sampling, ..Settings::new(12, 10) };
             let mut work = Work::<A, 5>::new();
-            let mut samples = vec![[A::BLACK; 3]; sampling.samples(12)];
+            let mut samples = vec![Sample::NONE; sampling.samples(12)];
             let (camera, none) = (A::camera(), Counts::default());
             let mut renderer =
                 Renderer::with_tally(s, &camera, settings, &mut work, &mut samples, none)

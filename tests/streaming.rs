@@ -8,14 +8,13 @@ use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::Picture;
-use whitted::frame::{FrameError, Output, Renderer, Rgb565, Sampling, Settings};
-use whitted::math::{Fixed, Rgb};
+use whitted::frame::{FrameError, Output, Renderer, Rgb565, Sample, Sampling, Settings};
+use whitted::math::Fixed;
 use whitted::tally::Counts;
 use whitted::trace::Work;
 
 const WIDTH: u16 = 40;
 const HEIGHT: u16 = 30;
-type Radiance = Rgb<fixed::types::I16F16>;
 
 /// A display of any size that keeps what it is sent, and fails after some pixels if told to.
 struct Screen {
@@ -75,7 +74,7 @@ fn settings(sampling: Sampling) -> Settings {
 
 fn by_lines(sampling: Sampling) -> Vec<u16> {
     let mut work = Work::<Fixed, 5>::new();
-    let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
+    let mut samples = vec![Sample::NONE; sampling.samples(WIDTH)];
     let mut renderer =
         Renderer::new(&SCENE, &CAMERA, settings(sampling), &mut work, &mut samples).unwrap();
     let mut all = Vec::new();
@@ -87,11 +86,16 @@ fn by_lines(sampling: Sampling) -> Vec<u16> {
     all
 }
 
-const ALL: [Sampling; 4] = [
+const ALL: [Sampling; 9] = [
     Sampling::Center,
     Sampling::Corners,
     Sampling::Grid { side: 2 },
     Sampling::Jittered { side: 2, seed: 3 },
+    Sampling::Adaptive { depth: 2, threshold: 8 },
+    Sampling::Sparse { side: 2, threshold: 8 },
+    Sampling::SPARSE,
+    Sampling::Sparse { side: 8, threshold: 0 },
+    Sampling::Sparse { side: 16, threshold: 255 },
 ];
 
 #[test]
@@ -100,7 +104,7 @@ fn bands_are_the_lines_whatever_their_height() {
         let lines = by_lines(sampling);
         for height in [1, 7, 30, 40] {
             let mut work = Work::<Fixed, 5>::new();
-            let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
+            let mut samples = vec![Sample::NONE; sampling.samples(WIDTH)];
             let mut renderer =
                 Renderer::new(&SCENE, &CAMERA, settings(sampling), &mut work, &mut samples)
                     .unwrap();
@@ -126,7 +130,7 @@ fn lines_in_any_order_are_the_same() {
     for sampling in ALL {
         let lines = by_lines(sampling);
         let mut work = Work::<Fixed, 5>::new();
-        let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
+        let mut samples = vec![Sample::NONE; sampling.samples(WIDTH)];
         let mut renderer =
             Renderer::new(&SCENE, &CAMERA, settings(sampling), &mut work, &mut samples).unwrap();
         for y in [29, 3, 4, 2, 2, 17, 0] {
@@ -143,7 +147,7 @@ fn lines_in_any_order_are_the_same() {
 /// Draws at a place of a 25×20 screen; what it shows and how many camera rays it took.
 fn drawn(sampling: Sampling, place: Point) -> (Screen, u64) {
     let mut work = Work::<Fixed, 5>::new();
-    let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
+    let mut samples = vec![Sample::NONE; sampling.samples(WIDTH)];
     let renderer = Renderer::with_tally(
         &SCENE,
         &CAMERA,
@@ -209,7 +213,7 @@ fn after_an_error_the_next_frame_is_whole() {
     for sampling in ALL {
         let lines = by_lines(sampling);
         let mut work = Work::<Fixed, 5>::new();
-        let mut samples = vec![Radiance::default(); sampling.samples(WIDTH)];
+        let mut samples = vec![Sample::NONE; sampling.samples(WIDTH)];
         let picture: Picture<'_, _, eg::Rgb565, 5> =
             Picture::new(&SCENE, &CAMERA, settings(sampling), &mut work, &mut samples).unwrap();
         let image = Image::new(&picture, Point::zero());
@@ -228,7 +232,7 @@ fn after_an_error_the_next_frame_is_whole() {
 fn what_does_not_fit_is_said_when_the_renderer_is_made() {
     let mut work = Work::<Fixed, 5>::new();
     let mut error = |settings, samples: usize| {
-        let mut samples = vec![Radiance::default(); samples];
+        let mut samples = vec![Sample::NONE; samples];
         Renderer::new(&SCENE, &CAMERA, settings, &mut work, &mut samples).err()
     };
     assert_eq!(error(Settings::new(10, 10), 0), None);
@@ -238,8 +242,8 @@ fn what_does_not_fit_is_said_when_the_renderer_is_made() {
     assert_eq!(error(deep(0), 0), Some(FrameError::Depth { depth: 0, max: 5 }));
     assert_eq!(error(deep(6), 0), Some(FrameError::Depth { depth: 6, max: 5 }));
     let corners = Settings { sampling: Sampling::Corners, ..Settings::new(10, 10) };
-    assert_eq!(error(corners, 10), Some(FrameError::Samples { needed: 11 }));
-    assert_eq!(error(corners, 11), None);
+    assert_eq!(error(corners, 11), Some(FrameError::Samples { needed: 12 }));
+    assert_eq!(error(corners, 12), None);
     let cells = |side| Settings { sampling: Sampling::Grid { side }, ..Settings::new(10, 10) };
     assert_eq!(error(cells(8), 0), None);
     assert_eq!(error(cells(0), 0), Some(FrameError::Cells { side: 0 }));

@@ -22,6 +22,8 @@ pub struct SceneError {
 pub struct Flaw {
     /// The line, from 1.
     pub line: Option<usize>,
+    /// The file, if it isn't the one that was read but one that it includes.
+    pub file: Option<PathBuf>,
     /// What is wrong with it.
     pub problem: Problem,
 }
@@ -48,6 +50,8 @@ pub enum Problem {
         /// The ending found.
         ending: String,
     },
+    /// It is within a file that it includes, or is that file.
+    Circle,
     /// There is nothing in it.
     Empty,
     /// Its grammar is broken, in the parser's words.
@@ -115,12 +119,12 @@ pub enum Problem {
 impl Problem {
     /// At a line.
     pub(crate) fn at(self, line: usize) -> Flaw {
-        Flaw { line: Some(line), problem: self }
+        Flaw { line: Some(line), file: None, problem: self }
     }
 
     /// Of the whole file.
     pub(crate) fn anywhere(self) -> Flaw {
-        Flaw { line: None, problem: self }
+        Flaw { line: None, file: None, problem: self }
     }
 
     pub(crate) fn range(what: impl Into<String>, value: f64, right: impl Into<String>) -> Self {
@@ -138,9 +142,17 @@ impl Problem {
 }
 
 impl Flaw {
-    /// In this file.
+    /// In this file, or in the one that it includes.
     pub fn of(self, file: &Path) -> SceneError {
-        SceneError { file: file.to_owned(), line: self.line, problem: self.problem }
+        let file = self.file.unwrap_or_else(|| file.to_owned());
+        SceneError { file, line: self.line, problem: self.problem }
+    }
+
+    /// In an included file, unless one further in is known.
+    #[must_use]
+    pub(crate) fn within(mut self, file: Option<&Path>) -> Self {
+        self.file = self.file.or_else(|| file.map(Path::to_owned));
+        self
     }
 }
 
@@ -164,8 +176,9 @@ impl fmt::Display for Problem {
             }
             Self::NotText => write!(f, "is not text (a scene file is UTF-8)"),
             Self::Format { ending } => {
-                write!(f, "unknown format \"{}\"; known: .toml, .nff", shown(ending))
+                write!(f, "unknown format \"{}\"; known: .toml, .nff, .obj", shown(ending))
             }
+            Self::Circle => write!(f, "is included by itself: a scene can't contain itself"),
             Self::Empty => write!(f, "there is no scene in this file; it is empty"),
             Self::Syntax(words) | Self::Settings(words) => write!(f, "{words}"),
             Self::Ended { wanted } => write!(f, "the file ends where {wanted} should follow"),

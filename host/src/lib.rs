@@ -6,8 +6,10 @@
 pub mod bake;
 pub mod document;
 pub mod error;
+mod mesh;
 pub mod nff;
 pub mod number;
+pub mod obj;
 pub mod picture;
 pub mod polygon;
 pub mod pov;

@@ -41,6 +41,9 @@ impl fmt::Display for V {
 }
 
 fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
+    let mut document = document.clone();
+    let lit = document.embody();
+    let document = &document;
     let rules = &document.rules;
     writeln!(out, "#version 3.7;")?;
     writeln!(
@@ -86,9 +89,7 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
         let ior = material.index_behind / material.index_front;
         let shadow = material.shadow;
         let twin = shadow == ShadowThrough::Opaque && material.transmits();
-        let lit = document.lights.iter().any(
-            |light| matches!(light.kind, LightKind::Area { body, .. } if body == Some(number)),
-        );
+        let lit = lit.contains(&Some(number));
         let mark = if twin || lit || shadow == ShadowThrough::None { " no_shadow" } else { "" };
         writeln!(out, " texture {{ T{index} }} interior {{ ior {ior} }}{mark} }}")?;
         if twin {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 pub use whitted::frame::Sampling;
-use whitted::frame::{Output, Renderer, Rgb888};
+use whitted::frame::{Output, Renderer, Rgb888, Sample};
 use whitted::tally::Counts;
 use whitted::trace::{Tracer, Work};
 
@@ -66,7 +66,7 @@ pub fn render<A: Construct>(
     let camera = baked.camera(settings.size)?;
     let core = settings.for_core();
     let mut work = Work::<A, MAX_DEPTH>::new();
-    let mut samples = vec![[A::BLACK; 3]; core.sampling.samples(core.width)];
+    let mut samples = vec![Sample::NONE; core.sampling.samples(core.width)];
     let counts = Counts::default();
     let mut renderer = Renderer::with_tally(&scene, &camera, core, &mut work, &mut samples, counts)
         .map_err(|error| Problem::Settings(error.to_string()).anywhere())?;

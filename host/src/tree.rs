@@ -82,12 +82,15 @@ pub fn tree<A: Construct>(
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };
         *distance /= baked.placement.scale();
+        let id = *shape;
         let origin = baked.origin(*shape).and_then(|i| baked.document().shapes.get(i));
         let name = origin.map(|shape| {
             let material = baked.document().materials.get(shape.material);
             let name = material.map_or("", |m| &m.name);
             let of = if name.is_empty() { String::new() } else { format!(" of \"{name}\"") };
-            format!("{}{of}, line {}", shape.body.name(), shape.line)
+            let file = baked.origin(id).and_then(|i| baked.document().file_of_shape(i));
+            let file = file.map_or(String::new(), |file| format!("{}, ", file.display()));
+            format!("{}{of}, {file}line {}", shape.body.name(), shape.line)
         });
         tree.names.push((*shape, name.unwrap_or_default()));
     }

@@ -32,6 +32,14 @@ fn every_key_is_documented() {
             "{SMALLEST}{MATERIAL}[[light]]\ntype = \"spot\"\nposition = {point}\n\
              direction = {point}\nzzz = 1\n"
         ),
+        format!(
+            "{SMALLEST}{MATERIAL}[[light]]\ntype = \"rectangle\"\nradiance = 1\n\
+             corner = {point}\nedges = [[1, 0, 0], [0, 1, 0]]\nzzz = 1\n"
+        ),
+        format!(
+            "{SMALLEST}{MATERIAL}[[light]]\ntype = \"disc\"\nradiance = 1\n\
+             center = {point}\nnormal = {point}\nradius = 1\nzzz = 1\n"
+        ),
         format!("{SMALLEST}{MATERIAL}[[plane]]\npoint = {point}\nnormal = {point}\nzzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}zzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}[[box]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nzzz = 1\n"),
@@ -39,6 +47,10 @@ fn every_key_is_documented() {
             "{SMALLEST}{MATERIAL}[[cone]]\nbase = [0, 0, 0]\nbase_radius = 1\napex = {point}\n\
              zzz = 1\n"
         ),
+        format!("{SMALLEST}{MATERIAL}{SPHERE}rotate = {{ axis = {point}, angle = 1, zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}{SPHERE}repeat = {{ count = 1, step = {point}, zzz = 1 }}\n"),
+        format!("mesh = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
+        format!("include = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}[[zzz]]\n"),
     ];
     for table in tables {

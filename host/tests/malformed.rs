@@ -108,6 +108,42 @@ const TOML: &[(&str, &str)] = &[
         "[[light]]\ntype = \"area\"\nposition = [0, 0, 0]",
         ":10: unknown word \"area\"; known: point",
     ),
+    ("[[light]]\ntype = \"rectangle\"", ":9: key \"radiance\" of this light is missing"),
+    ("[[light]]\ntype = \"disc\"\nradiance = -1", ":11: radiance -1 is out of range"),
+    ("[[light]]\ntype = \"disc\"\nradiance = 2000\nvisible = true", ":11: radiance 2000 is out"),
+    (
+        "[[light]]\ntype = \"sphere\"\nradiance = 1\ncenter = [0, 0, 0]\nradius = 0",
+        ":13: radius 0 is",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nerror = 0", ":12: error 0 is out of range"),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = 5", ":12: found 5 for \"samples\""),
+    (
+        "[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = [5, 4]",
+        ":12: samples 4 is out of range",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = [5, 2000]", ":12: samples 2000 is out"),
+    (
+        "[[light]]\ntype = \"rectangle\"\nradiance = 1\ncorner = [0, 0, 0]\nedges = [[1, 0, 0]]",
+        ":13: found a list of 1 for \"edges\"; a list of two edges",
+    ),
+    (
+        "[[light]]\ntype = \"rectangle\"\nradiance = 1\ncorner = [0, 0, 0]\n\
+         edges = [[1, 0, 0], [2, 0, 0]]",
+        ":9: rectangle light: its corners lie on a line",
+    ),
+    (
+        "[[light]]\ntype = \"triangle\"\nradiance = 1\ncorners = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]",
+        ":9: triangle light: its corners lie on a line",
+    ),
+    (
+        "[[light]]\ntype = \"polygon\"\nradiance = 1\n\
+         corners = [[0, 0, 0], [2, 0, 0], [0.5, 0.5, 0], [0, 2, 0]]",
+        ":9: polygon light: it is concave",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nposition = [0, 0, 0]", ":9: key \"center\" of"),
+    ("[render]\nseed = 70000", ":10: seed 70000 is out of range: it must be 0 to 65535"),
+    ("[render]\nlight_jitter = 1", ":10: found 1 for \"light_jitter\"; true or false"),
+    ("[[material]]\nname = \"a\"\nemission = 2000", ":11: emission 2000 is out of range"),
     ("[[light]]\nintensity = 3", ":9: key \"position\" of this light is missing"),
     ("[[light]]\nposition = [0, 0, 0]\ndirection = [0, 0, 1]", ":11: unknown key \"direction\""),
     ("[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 1, 0]", ":9: spot light: it"),
@@ -123,6 +159,38 @@ const TOML: &[(&str, &str)] = &[
     ("[render]\nspecular_cosine = 1", ":10: found 1 for \"specular_cosine\"; true or false"),
     ("[background]\nbottom = 1", ":9: either \"color\", or both \"bottom\" and \"top\""),
     ("[camera]\neye = [0, 0, 0]", ":9: duplicate key"),
+    ("scale = 0", ":9: scale 0 is out of range: it must be larger than 0, or negative"),
+    ("scale = [1, 2, 1]", ":6: sphere: it can't be scaled unevenly: a ball stays a ball"),
+    ("rotate = 30", ":9: found 30 for \"rotate\"; [x, y, z] in degrees, or { axis"),
+    ("rotate = { axis = [0, 0, 0], angle = 3 }", ":9: axis: 0 0 0 is no direction"),
+    ("rotate = { axis = [0, 1, 0] }", ":9: key \"angle\" of this rotate is missing"),
+    ("move = [1, 2]", ":9: found a list of 2 for \"move\"; [x, y, z] should be"),
+    ("move = [1, 2, 3]\ntranslate = [1, 2, 3]", ":10: translate: it stands beside \"move\""),
+    (
+        "scale = 1e8\nrepeat = { count = 3, step = [1e8, 0, 0] }",
+        ":6: placed coordinate 300000000 is out of range: it must be within",
+    ),
+    ("repeat = 3", ":9: found 3 for \"repeat\"; a table { count = …, step = [x, y, z] }"),
+    ("repeat = { count = 0, step = [1, 0, 0] }", ":9: count 0 is out of range: it must be 1"),
+    ("repeat = { count = 2 }", ":9: \"step\" or \"rotate\" of this repeat is missing"),
+    ("repeat = { step = [1, 0, 0] }", ":9: key \"count\" of this repeat is missing"),
+    ("repeat = []", ":9: number of directions 0 is out of range: it must be 1 to 3"),
+    (
+        "repeat = [{ count = 2000, step = [1, 0, 0] }, { count = 2000, step = [0, 1, 0] }]",
+        ":9: number of copies 4000000 is out of range: it must be at most 1000000",
+    ),
+    (
+        "[[cylinder]]\nbase = [0, 0, 0]\napex = [1, 1, 0]\nradius = 1\nscale = [1, 2, 1]",
+        ":9: cylinder: it can't be scaled unevenly at a slant to its axis",
+    ),
+    ("[[include]]\nfile = \"nowhere.toml\"", ":10: nowhere.toml: can't be read: No such file"),
+    ("[[include]]\nfile = \"x.stl\"", ":10: x.stl: can't be read"),
+    ("[[include]]\nfile = \"bad.toml\"", ":10: include \"bad.toml\": this file is within that"),
+    ("[[include]]\nscale = 3", ":9: key \"file\" of this include is missing"),
+    ("[[include]]\nfile = 3", ":10: found 3 for \"file\"; a text in quotes"),
+    ("[[mesh]]\nfile = \"no.obj\"", ":10: no.obj: can't be read: No such file"),
+    ("[[mesh]]\nmaterial = \"red\"", ":9: key \"file\" of this mesh is missing"),
+    ("mesh = \"a.obj\"", ":9: unknown key \"mesh\"; known: material, center"),
     ("x = [", ":9: unclosed array"),
     ("x = \"abc", ":9: invalid basic string"),
 ];
@@ -145,12 +213,36 @@ const TOML_FILES: &[(&[u8], &str)] = &[
     (b"[camera]\neye = \"\xc3\x28\"\n", ":2: is not text"),
 ];
 
+/// Lines that are wrong after three positions, in OBJ.
+const OBJ: &[(&str, &str)] = &[
+    ("v 1 2", ":4: a number or name (position z) on this line is missing"),
+    ("v 1 2 x", ":4: found \"x\"; a finite number (position z)"),
+    ("v 1 2 nan", ":4: found \"nan\"; a finite number (position z)"),
+    ("v 1 2 1e9", ":4: position z 1000000000 is out of range"),
+    ("f 1 2", ":4: number of corners 2 is out of range: it must be 3 or more"),
+    ("f 1 2 4", ":4: position number 4 is out of range: it must be 1 to 3, or -1 to -3"),
+    ("f 1 2 0", ":4: position number 0 is out of range: it must be 1 to 3"),
+    ("f 1 2 -4", ":4: position number -4 is out of range"),
+    ("f 1 2 99999999999999999999", ":4: found \"99999999999999999999\"; position/texture/normal"),
+    ("f 1 2 3/1", ":4: texture coordinate number 1 is out of range: it must be left out: no"),
+    ("f 1 2 3//1", ":4: normal number 1 is out of range: it must be left out"),
+    ("f 1 2 //3", ":4: normal number 3 is out of range"),
+    ("f 1 2 x", ":4: found \"x\"; position/texture/normal, each a whole number"),
+    ("s red", ":4: found \"red\"; a smoothing group's number, or off"),
+    ("usemtl", ":4: a number or name (material) on this line is missing"),
+    ("solid teapot", ":4: unknown word \"solid\"; known: v, vt, vn, f"),
+    ("f 1 1 1", ": a face (f) with an area is missing"),
+    ("", ": a face (f) with an area is missing"),
+];
+
 /// Every case as a file: its name, its bytes, what the error says.
 fn cases() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let after = |start: &str, rest: &str| format!("{start}{rest}\n").into_bytes();
     let mut all = Vec::new();
     all.extend(NFF.iter().map(|(text, says)| ("bad.nff", after(VIEW, text), *says)));
     all.extend(NFF_FILES.iter().map(|(bytes, says)| ("bad.nff", bytes.to_vec(), *says)));
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    all.extend(OBJ.iter().map(|(text, says)| ("bad.obj", after(three, text), *says)));
     all.extend(TOML.iter().map(|(text, says)| ("bad.toml", after(GOOD, text), *says)));
     all.extend(TOML_FILES.iter().map(|(bytes, says)| ("bad.toml", bytes.to_vec(), *says)));
     all
@@ -204,8 +296,8 @@ fn what_is_no_scene_file() {
     for (scene, says) in [
         ("nowhere.toml", "nowhere.toml: can't be read: No such file"),
         ("folder.toml", "folder.toml: is a directory; a scene is a file"),
-        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff"),
-        ("scene", "scene: unknown format \"\"; known: .toml, .nff"),
+        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff, .obj"),
+        ("scene", "scene: unknown format \"\"; known: .toml, .nff, .obj"),
     ] {
         let output = whitted(place.path(), &["render", scene]);
         assert!(errors(&output).contains(says), "{}", errors(&output));

@@ -19,9 +19,27 @@ pub enum FrameError {
         /// How many each way were asked for.
         side: u8,
     },
-    /// The sampling needs to remember more radiances than the slice holds.
+    /// Adaptive sampling halves a pixel 1 to 4 times.
+    Halvings {
+        /// How often was asked for.
+        depth: u8,
+    },
+    /// Blocks of sparse sampling have a side of 2, 4, 8 or 16 pixels.
+    Block {
+        /// What was asked for.
+        side: u8,
+    },
+    /// The first pass from coarse to fine has blocks of 1, 2, 4, … or 128 pixels.
+    Pass {
+        /// What was asked for.
+        side: u8,
+    },
+    /// The scene is tailored, and not to this sampling: what
+    /// [`Sampling::uses`](super::Sampling::uses) says has to be among its uses.
+    Tailored,
+    /// The sampling needs to remember more than the slice holds.
     Samples {
-        /// How many it needs.
+        /// How many samples it needs.
         needed: usize,
     },
 }
@@ -36,8 +54,20 @@ impl fmt::Display for FrameError {
             Self::Cells { side } => {
                 write!(f, "a pixel can be cut into 1 to 8 cells each way, not {side}")
             }
+            Self::Halvings { depth } => {
+                write!(f, "adaptive sampling halves a pixel 1 to 4 times, not {depth}")
+            }
+            Self::Block { side } => {
+                write!(f, "a block of sparse sampling has a side of 2, 4, 8 or 16, not {side}")
+            }
+            Self::Pass { side } => {
+                write!(f, "the first pass has blocks of 1, 2, 4, 8, 16, 32, 64 or 128, not {side}")
+            }
+            Self::Tailored => {
+                f.write_str("the scene is tailored without this sampling: add Sampling::uses()")
+            }
             Self::Samples { needed } => {
-                write!(f, "this sampling must remember {needed} radiances")
+                write!(f, "this sampling must remember {needed} samples")
             }
         }
     }

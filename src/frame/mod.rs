@@ -2,53 +2,28 @@
 //!
 //! A [`Renderer`] traces rows of radiance in memory of the caller's. What leaves it is one line
 //! into a slice of pixels ([`Renderer::line`]), bands of bytes for DMA ([`Renderer::band`]), or,
-//! through [`Picture`](crate::Picture), whatever embedded-graphics draws on.
+//! through [`Picture`](crate::Picture), whatever embedded-graphics draws on. Or the picture comes
+//! from coarse to fine, in blocks, as far as a deadline lets it ([`Renderer::refine`]).
 
 mod band;
+mod corners;
 mod error;
 mod jitter;
+mod passes;
 mod pixel;
 mod renderer;
+mod sample;
+mod sampling;
+mod sparse;
 mod tone;
 
 pub use error::FrameError;
+pub use passes::{Block, Passes, Progress};
 pub use pixel::{Dither, Gray1, Gray4, Gray8, Pixel, Rgb565, Rgb888};
 pub use renderer::{Renderer, Scan};
+pub use sample::Sample;
+pub use sampling::Sampling;
 pub use tone::{Tone, Transfer};
-
-/// Where the rays of a pixel go.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sampling {
-    /// One through the centre of each pixel.
-    #[default]
-    Center,
-    /// One through each pixel's corner, the mean of four making a pixel: (W + 1)·(H + 1) rays, as
-    /// the Standard Procedural Databases ask. Needs a row of W + 1 radiances.
-    Corners,
-    /// One through the middle of each of `side`×`side` cells of the pixel, averaged.
-    Grid {
-        /// 1 to 8.
-        side: u8,
-    },
-    /// One at random within each of `side`×`side` cells, averaged: regular patterns turn into
-    /// noise. The same seed gives the same picture on every machine.
-    Jittered {
-        /// 1 to 8.
-        side: u8,
-        /// Which of the random pictures.
-        seed: u16,
-    },
-}
-
-impl Sampling {
-    /// How many radiances the renderer must remember for pictures of this width.
-    pub const fn samples(self, width: u16) -> usize {
-        match self {
-            Self::Center | Self::Grid { .. } | Self::Jittered { .. } => 0,
-            Self::Corners => width as usize + 1,
-        }
-    }
-}
 
 /// What a frame is to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +34,7 @@ pub struct Settings {
     pub height: u16,
     /// How deep the tree of rays may be; the camera's ray has depth 1.
     pub depth: u8,
-    /// Where the rays of a pixel go.
+    /// Where its rays go.
     pub sampling: Sampling,
 }
 

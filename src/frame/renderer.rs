@@ -1,8 +1,10 @@
 //! The renderer: rows of radiance, in any order, in the caller's memory.
 
-use super::{FrameError, Output, Pixel, Sampling, Settings, jitter};
+use super::sample::Watch;
+use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
-use crate::scene::{Camera, Row, Scene, View, uses};
+use crate::scene::uses::{self, has};
+use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
 use crate::trace::{Tracer, Work};
@@ -11,11 +13,11 @@ use core::ops::Range;
 /// The larger side of a picture at most.
 const MAX_SIDE: u16 = 16_384;
 
-/// Which row of corners is remembered, between which columns.
+/// Which row of corners or of blocks is remembered, between which columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Remembered {
-    y: u16,
-    columns: (u16, u16),
+pub(super) struct Remembered {
+    pub(super) y: u16,
+    pub(super) columns: (u16, u16),
 }
 
 /// Renders one frame of a scene, row by row.
@@ -31,29 +33,29 @@ pub struct Renderer<
     const USES: u64 = { uses::ALL },
 > {
     tracer: Tracer<'a, A, USES>,
-    view: View<A>,
-    settings: Settings,
+    pub(super) view: View<A>,
+    pub(super) settings: Settings,
     work: &'a mut Work<A, MAX_DEPTH>,
-    /// The last row of corners traced, if the sampling wants one.
-    samples: &'a mut [Rgb<A::Radiance>],
-    remembered: Option<Remembered>,
-    tally: T,
+    /// What the sampling remembers, if it does.
+    samples: &'a mut [Sample<A>],
+    pub(super) remembered: Option<Remembered>,
+    pub(super) tally: T,
 }
 
 impl<'a, A: Arithmetic, const MAX_DEPTH: usize, const USES: u64>
     Renderer<'a, A, MAX_DEPTH, (), USES>
 {
-    /// A renderer that counts nothing. `samples` is memory for [`Sampling::samples`] radiances;
+    /// A renderer that counts nothing. `samples` is memory for [`Sampling::samples`] samples;
     /// what it holds doesn't matter.
     ///
     /// # Errors
-    /// A size, depth or memory that doesn't fit.
+    /// A size, depth, sampling or memory that doesn't fit.
     pub fn new(
         scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
-        samples: &'a mut [Rgb<A::Radiance>],
+        samples: &'a mut [Sample<A>],
     ) -> Result<Self, FrameError> {
         Self::with_tally(scene, camera, settings, work, samples, ())
     }
@@ -65,13 +67,13 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// A renderer that reports to `tally`.
     ///
     /// # Errors
-    /// A size, depth or memory that doesn't fit.
+    /// A size, depth, sampling or memory that doesn't fit.
     pub fn with_tally(
         scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
-        samples: &'a mut [Rgb<A::Radiance>],
+        samples: &'a mut [Sample<A>],
         tally: T,
     ) -> Result<Self, FrameError> {
         let Settings { width, height, depth, sampling } = settings;
@@ -82,10 +84,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             let max = if MAX_DEPTH > 255 { 255 } else { MAX_DEPTH as u8 };
             return Err(FrameError::Depth { depth, max });
         }
-        if let Sampling::Grid { side } | Sampling::Jittered { side, .. } = sampling
-            && !(1..=8).contains(&side)
-        {
-            return Err(FrameError::Cells { side });
+        sampling.check()?;
+        if !has(USES, sampling.uses()) {
+            return Err(FrameError::Tailored);
         }
         let needed = sampling.samples(width);
         if samples.len() < needed {
@@ -130,7 +131,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let row = self.view.row(rows.start, 128);
         // As if the row above had just ended: the first `next` begins a row.
         let x = columns.end;
-        Scan { renderer: self, columns, rows, x, row, left: [A::BLACK; 3], begun: false }
+        Scan { renderer: self, columns, rows, x, row, begun: false }
     }
 
     /// Writes the pixels of row `y`, as many as the slice holds.
@@ -149,17 +150,91 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     }
 
     /// The radiance along any ray.
+    #[inline(always)]
     pub fn radiance(&mut self, ray: &Ray<A>) -> Rgb<A::Radiance> {
-        self.tracer.radiance(*ray, self.work, &mut self.tally)
+        // The tracer is compiled once: for samplings that compare what rays hit, if there may be
+        // any.
+        if uses::has_signatures(USES) {
+            self.tracer.radiance(*ray, self.work, &mut Watch::new(&mut self.tally))
+        } else {
+            self.tracer.radiance(*ray, self.work, &mut self.tally)
+        }
     }
 
+    /// The radiance of the ray that is `fraction`/256 pixels right of the left edge of the pixel at
+    /// x, in a row of rays.
     #[inline(always)]
-    fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
+    pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
-        if USES & uses::AREA_LIGHTS != 0 {
+        if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
         }
-        self.tracer.radiance(ray, self.work, &mut self.tally)
+        self.radiance(&ray)
+    }
+
+    /// The same as a sample.
+    #[inline(always)]
+    pub(super) fn sample(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Sample<A> {
+        let ray = self.view.ray(row, x, fraction);
+        if uses::has_random(USES) {
+            self.tracer.set_key(row.key(x, fraction));
+        }
+        let mut watch = Watch::new(&mut self.tally);
+        let radiance = self.tracer.radiance(ray, self.work, &mut watch);
+        Sample::new(radiance, watch.signature)
+    }
+
+    /// A remembered sample.
+    #[inline(always)]
+    pub(super) fn remembered(&self, index: usize) -> Sample<A> {
+        self.samples.get(index).copied().unwrap_or(Sample::NONE)
+    }
+
+    /// Remembers a sample.
+    #[inline(always)]
+    pub(super) fn remember(&mut self, index: usize, sample: Sample<A>) {
+        if let Some(place) = self.samples.get_mut(index) {
+            *place = sample;
+        }
+    }
+
+    /// The pixel at (x, y), by any sampling but one ray through its centre. `columns` are those
+    /// that are asked for in this row, from the first to the last, one after the other.
+    #[inline(always)]
+    pub(super) fn sampled(&mut self, x: u16, y: u16, columns: (u16, u16)) -> Rgb<A::Radiance> {
+        match self.settings.sampling {
+            Sampling::Grid { side } if has(USES, uses::CELLS) => self.cells(x, y, side, None),
+            Sampling::Jittered { side, seed } if has(USES, uses::CELLS) => {
+                self.cells(x, y, side, Some(seed))
+            }
+            Sampling::Corners if has(USES, uses::CORNERS) => self.corners(x, y, columns),
+            Sampling::Adaptive { depth, threshold } if has(USES, uses::ADAPTIVE) => {
+                self.adaptive(x, y, columns, depth, threshold)
+            }
+            Sampling::Sparse { side, threshold } if has(USES, uses::SPARSE) => {
+                self.sparse(x, y, columns, side, threshold)
+            }
+            // The renderer isn't made for a sampling that the scene isn't tailored to.
+            _ => self.trace(&self.view.row(y, 128), x, 128),
+        }
+    }
+
+    /// The mean of a ray to each of `side`×`side` cells of the pixel: through its middle, or moved
+    /// as the seed says.
+    #[inline(never)]
+    fn cells(&mut self, x: u16, y: u16, side: u8, seed: Option<u16>) -> Rgb<A::Radiance> {
+        let mut sum = [A::BLACK; 3];
+        for j in 0..side {
+            for i in 0..side {
+                let (right, down) = match seed {
+                    None => jitter::middle((i, j), side),
+                    Some(seed) => jitter::jittered((i, j), side, (x, y), seed),
+                };
+                let radiance = self.trace(&self.view.row(y, down), x, right);
+                sum = rgb(&sum, &radiance, A::gather);
+            }
+        }
+        sum.map(|sum| A::mean(sum, u16::from(side) * u16::from(side)))
     }
 }
 
@@ -172,8 +247,6 @@ pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, const USES: u6
     rows: Range<u16>,
     x: u16,
     row: Row<A>,
-    /// The corner below and left of the next pixel.
-    left: Rgb<A::Radiance>,
     begun: bool,
 }
 
@@ -191,72 +264,8 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return false;
         }
         self.x = self.columns.start;
-        let y = self.rows.start;
-        match self.renderer.settings.sampling {
-            Sampling::Center => self.row = self.renderer.view.row(y, 128),
-            Sampling::Grid { .. } | Sampling::Jittered { .. } => {}
-            Sampling::Corners => {
-                let wanted = Remembered { y, columns: (self.columns.start, self.columns.end) };
-                if self.renderer.remembered != Some(wanted) {
-                    let row = self.renderer.view.row(y, 0);
-                    for x in self.columns.start..=self.columns.end {
-                        let corner = self.renderer.trace(&row, x, 0);
-                        self.remember(x, corner);
-                    }
-                }
-                // A scan that isn't finished leaves a row that is of no use.
-                self.renderer.remembered = None;
-                self.row = self.renderer.view.row(y + 1, 0);
-                self.left = self.renderer.trace(&self.row, self.x, 0);
-            }
-        }
+        self.row = self.renderer.view.row(self.rows.start, 128);
         true
-    }
-
-    #[inline(always)]
-    fn remember(&mut self, x: u16, corner: Rgb<A::Radiance>) {
-        if let Some(place) = self.renderer.samples.get_mut(usize::from(x)) {
-            *place = corner;
-        }
-    }
-
-    /// The mean of a ray to each of `side`×`side` cells of the pixel at x, at the place that
-    /// `place` gives.
-    #[inline(always)]
-    fn cells(
-        &mut self,
-        x: u16,
-        side: u8,
-        place: impl Fn((u8, u8)) -> (u8, u8),
-    ) -> Rgb<A::Radiance> {
-        let mut sum = [A::BLACK; 3];
-        for j in 0..side {
-            for i in 0..side {
-                let (right, down) = place((i, j));
-                let row = self.renderer.view.row(self.rows.start, down);
-                let radiance = self.renderer.trace(&row, x, right);
-                sum = rgb(&sum, &radiance, A::gather);
-            }
-        }
-        sum.map(|sum| A::mean(sum, u16::from(side) * u16::from(side)))
-    }
-
-    /// The mean of the four corners of the pixel at x.
-    #[inline(always)]
-    fn corners(&mut self, x: u16) -> Rgb<A::Radiance> {
-        let right = self.renderer.trace(&self.row, x + 1, 0);
-        let samples = &self.renderer.samples;
-        let above = |i: u16| samples.get(usize::from(i)).copied().unwrap_or([A::BLACK; 3]);
-        let top = rgb(&above(x), &above(x + 1), A::gather);
-        let bottom = rgb(&self.left, &right, A::gather);
-        self.remember(x, self.left);
-        self.left = right;
-        if x + 1 == self.columns.end {
-            self.remember(x + 1, right);
-            let columns = (self.columns.start, self.columns.end);
-            self.renderer.remembered = Some(Remembered { y: self.rows.start + 1, columns });
-        }
-        rgb(&top, &bottom, |a, b| A::mean(A::gather(a, b), 4))
     }
 }
 
@@ -270,17 +279,14 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
         if self.x >= self.columns.end && !self.next_row() {
             return None;
         }
-        let x = self.x;
+        let (x, y) = (self.x, self.rows.start);
         self.x += 1;
-        let radiance = match self.renderer.settings.sampling {
-            Sampling::Center => self.renderer.trace(&self.row, x, 128),
-            Sampling::Corners => self.corners(x),
-            Sampling::Grid { side } => self.cells(x, side, |cell| jitter::middle(cell, side)),
-            Sampling::Jittered { side, seed } => {
-                let pixel = (x, self.rows.start);
-                self.cells(x, side, |cell| jitter::jittered(cell, side, pixel, seed))
-            }
-        };
-        Some((x, self.rows.start, radiance))
+        let radiance =
+            if !uses::has_samplings(USES) || self.renderer.settings.sampling == Sampling::Center {
+                self.renderer.trace(&self.row, x, 128)
+            } else {
+                self.renderer.sampled(x, y, (self.columns.start, self.columns.end))
+            };
+        Some((x, y, radiance))
     }
 }

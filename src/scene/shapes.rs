@@ -1,71 +1,92 @@
-//! The shapes of a scene by their numbers: one list a kind, numbered through.
+//! Bounded shapes by their numbers: one list a kind, numbered through.
 
 use super::{Parts, SceneError};
 use crate::math::{Arithmetic, for_each_arithmetic};
-use crate::octree::Extent;
-use crate::shape::MaterialId;
+use crate::octree::{Extent, Octree};
+use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Polygon, PolygonEdge};
+use crate::shape::{SmoothTriangle, Sphere, Triangle};
 
-/// Evaluates `$body` with `$shape` bound to the shape of number `$id`, whatever its kind; `$none`
-/// where there is no such shape. The slices' own bounds checks are what finds the kind.
+/// Shapes that have an end, and the tree over them: what rays are searched for in. They are
+/// numbered through in the order of the fields.
+#[derive(Clone, Copy, Debug)]
+pub struct Shapes<'a, A: Arithmetic> {
+    /// Spheres.
+    pub spheres: &'a [Sphere<A>],
+    /// Flat triangles.
+    pub triangles: &'a [Triangle<A>],
+    /// Triangles with a normal at each corner.
+    pub smooth_triangles: &'a [SmoothTriangle<A>],
+    /// Convex polygons.
+    pub polygons: &'a [Polygon<A>],
+    /// The edges of all polygons.
+    pub edges: &'a [PolygonEdge<A>],
+    /// Boxes along the axes.
+    pub cuboids: &'a [Cuboid<A>],
+    /// Discs.
+    pub discs: &'a [Disc<A>],
+    /// Open cylinders.
+    pub cylinders: &'a [Cylinder<A>],
+    /// Open cones.
+    pub cones: &'a [Cone<A>],
+    /// The octree over all of them. Without one every ray tests every shape, which is quicker for
+    /// fewer than ten.
+    pub tree: Option<Octree<'a, A>>,
+}
+
+/// Evaluates `$body` with `$shape` bound to the bounded shape of number `$id`, whatever its kind;
+/// `$none` where there is no such shape. The slices' own bounds checks are what finds the kind.
 macro_rules! with_shape {
-    ($uses:expr, $parts:expr, $id:expr, $shape:ident => $body:expr, $none:expr) => {{
+    ($uses:expr, $shapes:expr, $id:expr, $shape:ident => $body:expr, $none:expr) => {{
         use $crate::scene::uses::{self, has};
-        let parts = $parts;
+        let shapes = $shapes;
         let index = $id as usize;
-        if let Some($shape) = parts.spheres.get(index) {
+        if let Some($shape) = shapes.spheres.get(index) {
             $body
         } else {
-            let index = index.wrapping_sub(parts.spheres.len());
+            let index = index.wrapping_sub(shapes.spheres.len());
             if has($uses, uses::TRIANGLES)
-                && let Some($shape) = parts.triangles.get(index)
+                && let Some($shape) = shapes.triangles.get(index)
             {
                 $body
             } else {
-                let index = index.wrapping_sub(parts.triangles.len());
+                let index = index.wrapping_sub(shapes.triangles.len());
                 if has($uses, uses::SMOOTH_TRIANGLES)
-                    && let Some($shape) = parts.smooth_triangles.get(index)
+                    && let Some($shape) = shapes.smooth_triangles.get(index)
                 {
                     $body
                 } else {
-                    let index = index.wrapping_sub(parts.smooth_triangles.len());
+                    let index = index.wrapping_sub(shapes.smooth_triangles.len());
                     if has($uses, uses::POLYGONS)
-                        && let Some(polygon) = parts.polygons.get(index)
+                        && let Some(polygon) = shapes.polygons.get(index)
                     {
-                        let $shape = &polygon.view(parts.edges);
+                        let $shape = &polygon.view(shapes.edges);
                         $body
                     } else {
-                        let index = index.wrapping_sub(parts.polygons.len());
+                        let index = index.wrapping_sub(shapes.polygons.len());
                         if has($uses, uses::CUBOIDS)
-                            && let Some($shape) = parts.cuboids.get(index)
+                            && let Some($shape) = shapes.cuboids.get(index)
                         {
                             $body
                         } else {
-                            let index = index.wrapping_sub(parts.cuboids.len());
+                            let index = index.wrapping_sub(shapes.cuboids.len());
                             if has($uses, uses::DISCS)
-                                && let Some($shape) = parts.discs.get(index)
+                                && let Some($shape) = shapes.discs.get(index)
                             {
                                 $body
                             } else {
-                                let index = index.wrapping_sub(parts.discs.len());
+                                let index = index.wrapping_sub(shapes.discs.len());
                                 if has($uses, uses::CYLINDERS)
-                                    && let Some($shape) = parts.cylinders.get(index)
+                                    && let Some($shape) = shapes.cylinders.get(index)
                                 {
                                     $body
                                 } else {
-                                    let index = index.wrapping_sub(parts.cylinders.len());
+                                    let index = index.wrapping_sub(shapes.cylinders.len());
                                     if has($uses, uses::CONES)
-                                        && let Some($shape) = parts.cones.get(index)
+                                        && let Some($shape) = shapes.cones.get(index)
                                     {
                                         $body
                                     } else {
-                                        let index = index.wrapping_sub(parts.cones.len());
-                                        if has($uses, uses::PLANES)
-                                            && let Some($shape) = parts.planes.get(index)
-                                        {
-                                            $body
-                                        } else {
-                                            $none
-                                        }
+                                        $none
                                     }
                                 }
                             }
@@ -78,8 +99,22 @@ macro_rules! with_shape {
 }
 pub(crate) use with_shape;
 
-impl<A: Arithmetic> Parts<'_, A> {
-    /// How many shapes there are besides planes: those that the tree is over.
+impl<A: Arithmetic> Shapes<'_, A> {
+    /// None: the base for `Shapes { spheres: …, ..Shapes::EMPTY }`.
+    pub const EMPTY: Self = Self {
+        spheres: &[],
+        triangles: &[],
+        smooth_triangles: &[],
+        polygons: &[],
+        edges: &[],
+        cuboids: &[],
+        discs: &[],
+        cylinders: &[],
+        cones: &[],
+        tree: None,
+    };
+
+    /// How many there are.
     #[inline(always)]
     pub const fn bounded(&self) -> u32 {
         (self.spheres.len()
@@ -91,53 +126,94 @@ impl<A: Arithmetic> Parts<'_, A> {
             + self.cylinders.len()
             + self.cones.len()) as u32
     }
+
+    /// One more than the highest material's index.
+    pub(super) const fn materials(&self) -> usize {
+        let mut most = 0;
+        macro_rules! look {
+            ($($kind:ident)*) => {
+                $(
+                    let mut i = 0;
+                    while i < self.$kind.len() {
+                        let index = self.$kind[i].material_id().index();
+                        if index >= most {
+                            most = index + 1;
+                        }
+                        i += 1;
+                    }
+                )*
+            };
+        }
+        look!(spheres triangles smooth_triangles polygons cuboids discs cylinders cones);
+        most
+    }
+
+    /// Every shape's material must be there, every polygon's edges, and the tree must be over
+    /// these shapes.
+    pub(super) const fn check(&self, materials: usize) -> Result<(), SceneError> {
+        macro_rules! check {
+            ($($kind:ident),*) => {
+                $(
+                    let mut i = 0;
+                    while i < self.$kind.len() {
+                        let id: MaterialId = self.$kind[i].material_id();
+                        if id.index() >= materials {
+                            return Err(SceneError::Material { index: id.index() as u16 });
+                        }
+                        i += 1;
+                    }
+                )*
+            };
+        }
+        check!(spheres, triangles, smooth_triangles, polygons, cuboids, discs, cylinders, cones);
+        let mut i = 0;
+        while i < self.polygons.len() {
+            let polygon = &self.polygons[i];
+            let end = polygon.first_edge() as u64 + polygon.edge_count() as u64;
+            if end > self.edges.len() as u64 {
+                return Err(SceneError::Edges { polygon: i as u32 });
+            }
+            i += 1;
+        }
+        if let Some(tree) = &self.tree
+            && tree.shapes() != self.bounded()
+        {
+            return Err(SceneError::Tree { shapes: tree.shapes() });
+        }
+        Ok(())
+    }
 }
 
-/// Every shape's material must be there, and every polygon's edges.
-pub(super) const fn check<A: Arithmetic>(parts: &Parts<'_, A>) -> Result<(), SceneError> {
-    macro_rules! check {
-        ($($kind:ident),*) => {
-            $(
-                let mut i = 0;
-                while i < parts.$kind.len() {
-                    let id: MaterialId = parts.$kind[i].material_id();
-                    if id.index() >= parts.materials.len() {
-                        return Err(SceneError::Material { index: id.index() as u16 });
-                    }
-                    i += 1;
-                }
-            )*
-        };
-    }
-    check!(
-        spheres,
-        triangles,
-        smooth_triangles,
-        polygons,
-        cuboids,
-        discs,
-        cylinders,
-        cones,
-        planes
-    );
-    let mut i = 0;
-    while i < parts.polygons.len() {
-        let polygon = &parts.polygons[i];
-        let end = polygon.first_edge() as u64 + polygon.edge_count() as u64;
-        if end > parts.edges.len() as u64 {
-            return Err(SceneError::Edges { polygon: i as u32 });
+impl<'a, A: Arithmetic> Parts<'a, A> {
+    /// The shapes that have an end, and their tree.
+    pub const fn shapes(&self) -> Shapes<'a, A> {
+        Shapes {
+            spheres: self.spheres,
+            triangles: self.triangles,
+            smooth_triangles: self.smooth_triangles,
+            polygons: self.polygons,
+            edges: self.edges,
+            cuboids: self.cuboids,
+            discs: self.discs,
+            cylinders: self.cylinders,
+            cones: self.cones,
+            tree: self.tree,
         }
-        i += 1;
     }
-    Ok(())
+
+    /// How many shapes there are besides planes: those that the tree is over.
+    #[inline(always)]
+    pub const fn bounded(&self) -> u32 {
+        self.shapes().bounded()
+    }
 }
 
 /// Adds the extents of the shapes of one kind.
 macro_rules! add {
-    ($parts:expr, $kind:ident, $extents:ident, $next:ident, $log2_step:expr) => {
+    ($shapes:expr, $kind:ident, $extents:ident, $next:ident, $log2_step:expr) => {
         let mut i = 0;
-        while i < $parts.$kind.len() {
-            $extents[$next] = $parts.$kind[i].extent($log2_step);
+        while i < $shapes.$kind.len() {
+            $extents[$next] = $shapes.$kind[i].extent($log2_step);
             $next += 1;
             i += 1;
         }
@@ -145,9 +221,9 @@ macro_rules! add {
 }
 
 for_each_arithmetic! {
-    impl Parts<'_, A> {
-        /// Where the bounded shapes lie, for [`OctreeBuffer::build`]: in steps of
-        /// 2^`log2_step` for floating point (fixed point's are always 2⁻¹⁶). `N` must be
+    impl Shapes<'_, A> {
+        /// Where the shapes lie, for [`OctreeBuffer::build`]: in steps of 2^`log2_step` for
+        /// floating point (fixed point's are always 2⁻¹⁶). `N` must be
         /// [`bounded`](Self::bounded).
         ///
         /// [`OctreeBuffer::build`]: crate::octree::OctreeBuffer::build
@@ -167,6 +243,16 @@ for_each_arithmetic! {
             add!(self, cylinders, extents, next, log2_step);
             add!(self, cones, extents, next, log2_step);
             extents
+        }
+    }
+
+    impl Parts<'_, A> {
+        /// See [`Shapes::extents`].
+        ///
+        /// # Panics
+        /// Where `N` is another number than that of the bounded shapes.
+        pub const fn extents<const N: usize>(&self, log2_step: i8) -> [Extent; N] {
+            self.shapes().extents(log2_step)
         }
     }
 }

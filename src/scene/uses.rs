@@ -18,7 +18,7 @@
 //! ```
 
 use super::light::Source;
-use super::{Background, Falloff, Parts, Shadow};
+use super::{Background, Falloff, Instance, Parts, Shadow, Shapes};
 use crate::math::Arithmetic;
 
 /// Anything.
@@ -72,6 +72,22 @@ pub const AREA_LIGHTS: u64 = 1 << 22;
 /// Materials that emit.
 pub const EMISSION: u64 = 1 << 23;
 
+/// Instances of groups.
+pub const INSTANCES: u64 = 1 << 40;
+
+// The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
+// adds what its pictures are sampled by, see `Sampling::uses`.
+
+/// [`Sampling::Grid`](crate::frame::Sampling::Grid) and
+/// [`Sampling::Jittered`](crate::frame::Sampling::Jittered).
+pub const CELLS: u64 = 1 << 63;
+/// [`Sampling::Corners`](crate::frame::Sampling::Corners).
+pub const CORNERS: u64 = 1 << 62;
+/// [`Sampling::Adaptive`](crate::frame::Sampling::Adaptive).
+pub const ADAPTIVE: u64 = 1 << 61;
+/// [`Sampling::Sparse`](crate::frame::Sampling::Sparse).
+pub const SPARSE: u64 = 1 << 60;
+
 /// Whether `uses` has all bits of `what`.
 #[inline(always)]
 pub(crate) const fn has(uses: u64, what: u64) -> bool {
@@ -84,22 +100,59 @@ pub(crate) const fn has_others(uses: u64) -> bool {
     uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
 }
 
+/// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.
+#[inline(always)]
+pub(crate) const fn has_samplings(uses: u64) -> bool {
+    uses & (CELLS | CORNERS | ADAPTIVE | SPARSE) != 0
+}
+
+/// Whether pictures may be sampled by what rays hit.
+#[inline(always)]
+pub(crate) const fn has_signatures(uses: u64) -> bool {
+    uses & (ADAPTIVE | SPARSE) != 0
+}
+
+/// Whether anything is random about rays.
+#[inline(always)]
+pub(crate) const fn has_random(uses: u64) -> bool {
+    has(uses, AREA_LIGHTS)
+}
+
 const fn bit(wanted: bool, what: u64) -> u64 {
     if wanted { what } else { 0 }
 }
 
-impl<A: Arithmetic> Parts<'_, A> {
-    /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
-    pub const fn uses(&self) -> u64 {
-        let mut uses = bit(!self.triangles.is_empty(), TRIANGLES)
+impl<A: Arithmetic> Shapes<'_, A> {
+    /// The bits of these shapes.
+    pub(crate) const fn uses(&self) -> u64 {
+        bit(!self.triangles.is_empty(), TRIANGLES)
             | bit(!self.smooth_triangles.is_empty(), SMOOTH_TRIANGLES)
             | bit(!self.polygons.is_empty(), POLYGONS)
             | bit(!self.cuboids.is_empty(), CUBOIDS)
             | bit(!self.discs.is_empty(), DISCS)
             | bit(!self.cylinders.is_empty(), CYLINDERS)
             | bit(!self.cones.is_empty(), CONES)
-            | bit(!self.planes.is_empty(), PLANES)
             | bit(self.tree.is_some(), TREE)
+    }
+}
+
+/// The bits of instances and of their groups.
+pub(crate) const fn of_instances<A: Arithmetic>(instances: &[Instance<'_, A>]) -> u64 {
+    let mut uses = 0;
+    let mut i = 0;
+    while i < instances.len() {
+        uses |= INSTANCES | instances[i].group().uses();
+        i += 1;
+    }
+    uses
+}
+
+impl<A: Arithmetic> Parts<'_, A> {
+    /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
+    pub const fn uses(&self) -> u64 {
+        let mut uses = self.shapes().uses()
+            | of_instances(self.instances)
+            | bit(!self.planes.is_empty(), PLANES)
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)

@@ -151,7 +151,7 @@ impl<A: Arithmetic> Shape<A> for Cuboid<A> {
             1 => [A::NO_UNIT, back, A::NO_UNIT],
             _ => [A::NO_UNIT, A::NO_UNIT, back],
         };
-        Surface { geometric: normal, normal, cosine, behind, smooth: false }
+        Surface { geometric: normal, normal, cosine, behind, smooth: false, part: 0 }
     }
 
     #[inline(always)]

@@ -54,13 +54,27 @@ pub struct Ray<A: Arithmetic> {
 pub struct Leaving {
     /// The shape's number in the scene.
     pub shape: u32,
+    /// Which part of it: see [`Surface::part`].
+    pub part: u8,
     /// Whether the ray goes into the shape.
     pub inwards: bool,
 }
 
 impl Leaving {
     /// A ray that starts in free space.
-    pub const NOTHING: Self = Self { shape: u32::MAX, inwards: false };
+    pub const NOTHING: Self = Self { shape: u32::MAX, part: 0, inwards: false };
+
+    /// A ray that goes back to the side that the surface was seen from.
+    #[inline(always)]
+    pub fn back<A: Arithmetic>(shape: u32, surface: &Surface<A>) -> Self {
+        Self { shape, part: surface.part, inwards: surface.behind }
+    }
+
+    /// A ray that goes through the surface.
+    #[inline(always)]
+    pub fn through<A: Arithmetic>(shape: u32, surface: &Surface<A>) -> Self {
+        Self { shape, part: surface.part, inwards: !surface.behind }
+    }
 }
 
 /// Where a ray meets a shape.
@@ -89,12 +103,17 @@ pub struct Surface<A: Arithmetic> {
     pub behind: bool,
     /// Whether the two normals may differ.
     pub smooth: bool,
+    /// Which part of the shape it belongs to, for a ray that leaves it: 0 for a shape that has but
+    /// one; nobody but the shape itself knows what the others mean.
+    pub part: u8,
 }
 
 /// What tracing asks of every primitive.
 pub trait Shape<A: Arithmetic> {
     /// Flat shapes are met once by any ray, so one that leaves them need not test them.
     const FLAT: bool;
+    /// A ray that leaves a convex shape outwards doesn't meet it again.
+    const CONVEX: bool = true;
 
     /// The nearest point in front of the ray's origin and nearer than `limit` or exactly there
     /// (the caller decides ties). `inwards`: the ray starts on this shape and goes into it.
@@ -121,6 +140,12 @@ pub trait Shape<A: Arithmetic> {
 
     /// The material's number, and whether the shape shows its inside only.
     fn material(&self) -> MaterialId;
+
+    /// The material where a ray met the shape, for shapes that have several.
+    #[inline(always)]
+    fn material_at(&self, _meeting: &Meeting<A>) -> MaterialId {
+        self.material()
+    }
 }
 
 /// Which of the scene's materials a shape has.
@@ -172,7 +197,7 @@ pub(crate) fn turned_to<A: Arithmetic>(
     let normal = if behind { crate::math::neg(outward) } else { *outward };
     let cosine = if behind { dn } else { -dn };
     let cosine = if cosine > A::NO_UNIT { cosine } else { A::NO_UNIT };
-    Surface { geometric: normal, normal, cosine, behind, smooth: false }
+    Surface { geometric: normal, normal, cosine, behind, smooth: false, part: 0 }
 }
 
 /// The distance to a plane that lies `left` ahead and is neared with the speed `slope`, and that

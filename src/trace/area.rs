@@ -87,6 +87,7 @@ fn area<A: Arithmetic, T: Tally, const USES: u64>(
         && at.material.shines
         // A mirror shows the light itself.
         && !(light.body().is_some() && at.material.reflects);
+    let mut shadowed = true;
     let (mut matt, mut gloss) = ([A::BLACK; 3], [A::BLACK; 3]);
     let mut ray = at.shadow;
     let mut sample = 0u32;
@@ -114,6 +115,7 @@ fn area<A: Arithmetic, T: Tally, const USES: u64>(
             let Some(share) = visible_beside(scene, &ray, limit, light.body, scratch, tally) else {
                 continue;
             };
+            shadowed = false;
             let facing = A::weight(facing, seen.share);
             let irradiance = A::dim(A::falloff(&light.intensity, &inverse), facing);
             let add = |sum: &Rgb<A::Radiance>, radiance: A::Radiance| {
@@ -136,6 +138,9 @@ fn area<A: Arithmetic, T: Tally, const USES: u64>(
                 }
             }
         }
+    }
+    if shadowed {
+        tally.shadowed(number, at.depth);
     }
     let count = across.wrapping_mul(down);
     let of = |sum: Rgb<A::Radiance>, k: &Rgb<A::Weight>| {

@@ -5,7 +5,7 @@
 
 use crate::math::Arithmetic;
 use crate::scene::uses::{self, has};
-use crate::scene::{Parts, Scene, with_shape};
+use crate::scene::{Scene, Shapes, with_shape};
 use crate::shape::{MaterialId, Meeting, Ray, Shape, Surface};
 
 /// Where a ray meets a shape, unless it is one that the ray leaves and can't meet again.
@@ -18,22 +18,30 @@ pub(super) fn meet<A: Arithmetic, S: Shape<A>>(
     limit: A::Length,
 ) -> Option<Meeting<A>> {
     let left = id == ray.leaving.shape;
-    if left && (S::FLAT || !ray.leaving.inwards) {
+    if left && (S::FLAT || S::CONVEX && !ray.leaving.inwards) {
         return None;
     }
     shape.nearest(ray, coarse, left, limit)
 }
 
-/// The same for the shape of any number.
+/// The same for the bounded shape of any number.
 #[inline(never)]
 pub(super) fn meet_any<A: Arithmetic, const USES: u64>(
-    parts: &Parts<'_, A>,
+    shapes: &Shapes<'_, A>,
     id: u32,
     ray: &Ray<A>,
     coarse: &A::Coarse,
     limit: A::Length,
 ) -> Option<Meeting<A>> {
-    with_shape!(USES, parts, id, shape => meet(shape, id, ray, coarse, limit), None)
+    with_shape!(USES, shapes, id, shape => meet(shape, id, ray, coarse, limit), None)
+}
+
+/// Where a ray met a shape.
+pub(super) struct Place<A: Arithmetic> {
+    pub(super) surface: Surface<A>,
+    pub(super) material: MaterialId,
+    /// The point in the space where patterns lie: that of the scene, or of the group.
+    pub(super) local: [A::Length; 3],
 }
 
 /// The surface and material where the ray met the shape of this number; puts `p` back on it.
@@ -44,33 +52,71 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     ray: &Ray<A>,
     meeting: &Meeting<A>,
     p: &mut [A::Length; 3],
-) -> Option<(Surface<A>, MaterialId)> {
-    let parts = &scene.parts;
-    if let Some(sphere) = parts.spheres.get(id as usize) {
-        Some((sphere.surface(ray, meeting, p), sphere.material()))
+) -> Option<Place<A>> {
+    let (parts, shapes) = (&scene.parts, &scene.shapes);
+    if let Some(sphere) = shapes.spheres.get(id as usize) {
+        let surface = sphere.surface(ray, meeting, p);
+        Some(Place { surface, material: sphere.material(), local: *p })
     } else if has(USES, uses::PLANES)
-        && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.bounded) as usize)
+        && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
-        Some((plane.surface(ray, meeting, p), plane.material()))
+        let surface = plane.surface(ray, meeting, p);
+        Some(Place { surface, material: plane.material(), local: *p })
+    } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
+        let (place, point) = surface_in_instance(scene, id, *ray, *meeting)?;
+        *p = point;
+        Some(place)
     } else {
         let (surface, material, point) =
-            surface_of_other::<A, USES>(parts, id, *ray, *meeting, *p)?;
+            surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
         *p = point;
-        Some((surface, material))
+        Some(Place { surface, material, local: point })
     }
+}
+
+/// The same in an instance.
+#[inline(never)]
+fn surface_in_instance<A: Arithmetic, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    id: u32,
+    ray: Ray<A>,
+    meeting: Meeting<A>,
+) -> Option<(Place<A>, [A::Length; 3])> {
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        let count = instance.group().count;
+        let index = id.wrapping_sub(first);
+        if index >= count {
+            first = first.wrapping_add(count);
+            continue;
+        }
+        let coarse = A::coarse(&ray.origin, &ray.direction);
+        let inside = instance.enter(first, &ray, &coarse, A::FAR)?;
+        let ray = &inside.ray;
+        let distance = instance.distance_inside(&inside, meeting.distance);
+        let local = A::along(&ray.origin, distance, &ray.direction);
+        let meeting = Meeting { distance, ..meeting };
+        let shapes = &instance.group().shapes;
+        let (surface, material, local) =
+            surface_of_other::<A, USES>(shapes, index, *ray, meeting, local)?;
+        let surface = instance.turn(surface);
+        let material = instance.material().unwrap_or(material);
+        return Some((Place { surface, material, local }, instance.outwards(&local)));
+    }
+    None
 }
 
 /// By value: what a reference is taken of can't stay in registers.
 #[inline(never)]
 fn surface_of_other<A: Arithmetic, const USES: u64>(
-    parts: &Parts<'_, A>,
+    shapes: &Shapes<'_, A>,
     id: u32,
     ray: Ray<A>,
     meeting: Meeting<A>,
     mut p: [A::Length; 3],
 ) -> Option<(Surface<A>, MaterialId, [A::Length; 3])> {
-    with_shape!(USES, parts, id, shape => {
+    with_shape!(USES, shapes, id, shape => {
         let surface = shape.surface(&ray, &meeting, &mut p);
-        Some((surface, shape.material(), p))
+        Some((surface, shape.material_at(&meeting), p))
     }, None)
 }

@@ -4,9 +4,10 @@ use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
-use crate::scene::{Parts, Scene};
+use crate::scene::{Scene, Shapes};
 use crate::shape::{Meeting, Ray};
 use crate::tally::Tally;
+use core::ops::Range;
 
 /// The nearest hit along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +34,7 @@ impl<A: Arithmetic> Hit<A> {
 
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
 struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
-    parts: &'r Parts<'a, A>,
+    shapes: &'r Shapes<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
     best: Hit<A>,
@@ -45,7 +46,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     fn test_any(&mut self, id: u32) {
         self.tally.test();
         let limit = self.best.distance;
-        self.best.take(meet_any::<A, USES>(self.parts, id, self.ray, &self.coarse, limit), id);
+        self.best.take(meet_any::<A, USES>(self.shapes, id, self.ray, &self.coarse, limit), id);
     }
 }
 
@@ -57,7 +58,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        match self.parts.spheres.get(id as usize) {
+        match self.shapes.spheres.get(id as usize) {
             Some(sphere) => {
                 self.tally.test();
                 let limit = self.best.distance;
@@ -74,29 +75,62 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on from the best hit so far with the tree, or with the shapes that no line above tests.
+/// Goes on from the best hit so far with the tree, or with those shapes that nobody tests else.
 /// Out of line and by value, so that the short loops keep their numbers in registers.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+    shapes: &Shapes<'_, A>,
+    rest: Range<u32>,
     ray: Ray<A>,
     best: Hit<A>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Hit<A> {
-    let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search::<A, T, USES> { parts, ray: &ray, coarse, best, tally };
+    let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, best, tally };
     if has(USES, uses::TREE)
-        && let Some(tree) = &parts.tree
+        && let Some(tree) = &shapes.tree
     {
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
     } else {
-        for id in parts.spheres.len() as u32..scene.bounded {
+        for id in rest {
             search.test_any(id);
         }
     }
     search.best
+}
+
+/// Goes on with the instances.
+#[inline(never)]
+fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    ray: Ray<A>,
+    mut best: Hit<A>,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Hit<A> {
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        tally.test();
+        let group = instance.group();
+        if let Some(inside) = instance.enter(first, &ray, &coarse, best.distance) {
+            let limit = instance.distance_inside(&inside, best.distance);
+            let none = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
+            let rest = 0..group.count;
+            let hit = search::<A, T, USES>(&group.shapes, rest, inside.ray, none, walk, tally);
+            if hit.shape != u32::MAX && hit.distance < A::FAR {
+                let distance = instance.distance_outside(&inside, hit.distance);
+                let id = first.wrapping_add(hit.shape);
+                // Rounding can take it a step beyond.
+                if distance <= best.distance {
+                    best.take(Some(Meeting { distance, detail: hit.detail }), id);
+                }
+            }
+        }
+        first = first.wrapping_add(group.count);
+    }
+    best
 }
 
 /// The nearest hit in front of `limit`; the lowest number among equals.
@@ -108,30 +142,33 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Hit<A>> {
-    let parts = &scene.parts;
+    let (parts, shapes) = (&scene.parts, &scene.shapes);
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.bounded;
+    let mut id = scene.first_plane;
     for plane in planes {
         tally.test();
         best.take(meet(plane, id, ray, &coarse, best.distance), id);
         id += 1;
     }
-    let tree = has(USES, uses::TREE) && parts.tree.is_some();
+    let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let mut id = 0;
-        for sphere in parts.spheres {
+        for sphere in shapes.spheres {
             tally.test();
             best.take(meet(sphere, id, ray, &coarse, best.distance), id);
             id += 1;
         }
         if has_others(USES) && id != scene.bounded {
-            best = search(scene, *ray, best, walk, tally);
+            best = search::<A, T, USES>(shapes, id..scene.bounded, *ray, best, walk, tally);
         }
     } else {
-        best = search(scene, *ray, best, walk, tally);
+        best = search::<A, T, USES>(shapes, 0..0, *ray, best, walk, tally);
+    }
+    if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
+        best = in_instances(scene, *ray, best, walk, tally);
     }
     if best.distance < limit { Some(best) } else { None }
 }

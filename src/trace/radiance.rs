@@ -93,7 +93,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
         loop {
-            if has(USES, uses::AREA_LIGHTS) {
+            if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
@@ -149,12 +149,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
-        let Some((surface, id)) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
+        let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
             return (false, None);
         };
-        let Some(material) = scene.material_at(id, &p) else { return (false, None) };
+        let surface = place.surface;
+        let Some(material) = scene.material_at(place.material, &place.local) else {
+            return (false, None);
+        };
 
-        if has(USES, uses::EMISSION) && material.emits && (!surface.behind || id.inside_only()) {
+        if has(USES, uses::EMISSION)
+            && material.emits
+            && (!surface.behind || place.material.inside_only())
+        {
             let radiance = rgb(&material.emission, &path.weight, A::dim);
             tally.term::<A>(Term::Emission, &radiance);
             *sum = rgb(sum, &radiance, A::gather);
@@ -170,7 +176,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let outside = Ray {
             origin: A::leave(&p, &surface.geometric, hit.distance),
             direction: mirror,
-            leaving: Leaving { shape: hit.shape, inwards: surface.behind },
+            leaving: Leaving::back(hit.shape, &surface),
         };
         let shading = Shading {
             surface: &surface,
@@ -205,7 +211,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                         let ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
-                            leaving: Leaving { shape: hit.shape, inwards: !surface.behind },
+                            leaving: Leaving::through(hit.shape, &surface),
                         };
                         transmitted =
                             Some(Path { ray, weight, depth, kind: RayKind::Transmission });

@@ -6,16 +6,17 @@ use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
-use crate::scene::{Parts, Scene, Shadow};
+use crate::scene::{Scene, Shadow, Shapes};
 use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
+use core::ops::Range;
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
 const MAX_SHEETS: usize = 32;
 
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
 struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
-    parts: &'r Parts<'a, A>,
+    shapes: &'r Shapes<'a, A>,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
     limit: A::Length,
@@ -41,7 +42,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     #[inline(always)]
     fn test_any(&mut self, id: u32) -> bool {
         self.tally.test();
-        let meeting = meet_any::<A, USES>(self.parts, id, self.ray, &self.coarse, self.limit);
+        let meeting = meet_any::<A, USES>(self.shapes, id, self.ray, &self.coarse, self.limit);
         self.note(meeting.is_some_and(|m| m.distance < self.limit), id)
     }
 
@@ -62,7 +63,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
-        match self.parts.spheres.get(id as usize) {
+        match self.shapes.spheres.get(id as usize) {
             Some(sphere) => {
                 self.tally.test();
                 let blocked = blocks(sphere, id, self.ray, &self.coarse, self.limit);
@@ -78,26 +79,53 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on with the tree, or with the shapes that no line below tests. By value, as in the search
+/// Goes on with the tree, or with those shapes that nobody tests else. By value, as in the search
 /// for the nearest hit.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
+    shapes: &Shapes<'_, A>,
+    mut rest: Range<u32>,
+    ray: Ray<A>,
+    limit: A::Length,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Option<u32> {
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, limit, found: None, tally };
+    if has(USES, uses::TREE)
+        && let Some(tree) = &shapes.tree
+    {
+        tree.walk(&ray.origin, &ray.direction, walk, &mut search);
+        return search.found;
+    }
+    rest.find(|&id| search.test_any(id))
+}
+
+/// Goes on with the instances.
+#[inline(never)]
+fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<u32> {
-    let parts = &scene.parts;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search::<A, T, USES> { parts, ray: &ray, coarse, limit, found: None, tally };
-    if has(USES, uses::TREE)
-        && let Some(tree) = &parts.tree
-    {
-        tree.walk(&ray.origin, &ray.direction, walk, &mut search);
-        return search.found;
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        tally.test();
+        let group = instance.group();
+        if let Some(inside) = instance.enter(first, &ray, &coarse, limit) {
+            let limit = instance.distance_inside(&inside, limit);
+            let rest = 0..group.count;
+            let found = search::<A, T, USES>(&group.shapes, rest, inside.ray, limit, walk, tally);
+            if let Some(id) = found {
+                return Some(first.wrapping_add(id));
+            }
+        }
+        first = first.wrapping_add(group.count);
     }
-    (parts.spheres.len() as u32..scene.bounded).find(|&id| search.test_any(id))
+    None
 }
 
 /// The number of any shape along the ray nearer than `limit`.
@@ -109,12 +137,12 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<u32> {
-    let parts = &scene.parts;
+    let (parts, shapes) = (&scene.parts, &scene.shapes);
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let tree = has(USES, uses::TREE) && parts.tree.is_some();
+    let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let mut id = 0;
-        for sphere in parts.spheres {
+        for sphere in shapes.spheres {
             tally.test();
             if blocks(sphere, id, ray, &coarse, limit) {
                 return Some(id);
@@ -122,14 +150,21 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
             id += 1;
         }
     }
-    if tree || has_others(USES) && parts.spheres.len() as u32 != scene.bounded {
-        let found = search(scene, *ray, limit, walk, tally);
+    if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
+        let rest = shapes.spheres.len() as u32..scene.bounded;
+        let found = search::<A, T, USES>(shapes, rest, *ray, limit, walk, tally);
+        if found.is_some() {
+            return found;
+        }
+    }
+    if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
+        let found = in_instances(scene, *ray, limit, walk, tally);
         if found.is_some() {
             return found;
         }
     }
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.bounded;
+    let mut id = scene.first_plane;
     for plane in planes {
         tally.test();
         if meet(plane, id, ray, &coarse, limit).is_some_and(|m| m.distance < limit) {
@@ -214,8 +249,9 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
         }
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let (surface, id) = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
-        let material = scene.material_at(id, &p)?;
+        let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
+        let surface = place.surface;
+        let material = scene.material_at(place.material, &place.local)?;
         match material.shadow {
             Shadow::None => {}
             Shadow::Filtered if material.transmits => {
@@ -228,7 +264,7 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
             return None;
         }
         ray.origin = A::leave(&p, &neg(&surface.geometric), hit.distance);
-        ray.leaving = Leaving { shape: hit.shape, inwards: !surface.behind };
+        ray.leaving = Leaving::through(hit.shape, &surface);
         left = left - hit.distance;
     }
     None

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use addr2line::Loader;
-use object::read::elf::ElfFile32;
+use object::elf::PT_LOAD;
+use object::read::elf::{ElfFile32, ProgramHeader};
 use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SymbolKind};
 
 /// Bytes of a program.
@@ -75,6 +76,31 @@ fn inlined(lines: &Loader, address: u64) -> String {
         }
     }
     text
+}
+
+/// What a program puts into memory: bytes and the address they are loaded from.
+pub(crate) fn segments(path: &Path) -> Result<Vec<(u64, Vec<u8>)>, String> {
+    with(path, |elf| {
+        let endian = elf.endian();
+        let mut segments = Vec::new();
+        for header in elf.elf_program_headers() {
+            if header.p_type(endian) != PT_LOAD || header.p_filesz(endian) == 0 {
+                continue;
+            }
+            let data = header.data(endian, elf.data()).map_err(|()| "a segment is cut off")?;
+            segments.push((u64::from(header.p_paddr(endian)), data.to_vec()));
+        }
+        Ok(segments)
+    })
+}
+
+/// Address and size of a symbol.
+pub(crate) fn symbol(path: &Path, name: &str) -> Result<(u64, u64), String> {
+    with(path, |elf| {
+        let symbol = elf.symbols().find(|symbol| symbol.name() == Ok(name));
+        let symbol = symbol.ok_or_else(|| format!("{}: no symbol {name}", path.display()))?;
+        Ok((symbol.address(), symbol.size()))
+    })
 }
 
 fn name(raw: Result<&str, object::Error>) -> String {

@@ -3,6 +3,7 @@
 
 mod bench;
 mod compare;
+mod cores;
 mod elf;
 mod firmware;
 mod lint;

@@ -12,6 +12,7 @@ use embedded_graphics::prelude::*;
 use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
 
+use crate::cores;
 use crate::elf;
 use crate::machine::{self, Record};
 use crate::report::Report;
@@ -42,6 +43,9 @@ const SMALL: (u16, u16) = (60, 45);
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
 /// Sending by DMA may add this to tracing.
 const SENDING: f64 = 0.03;
+
+/// Two cores are to be quicker than one by this factor.
+const TWO_CORES: f64 = 1.8;
 
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
@@ -144,6 +148,7 @@ pub(crate) fn check(report: &mut Report) {
             }));
         }
     }
+    report.check(&format!("Pico (rp2040-emu): {job} on both cores"), || both_cores(&job));
     // Of the first display; all or none.
     if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
@@ -156,12 +161,34 @@ pub(crate) fn check(report: &mut Report) {
     }
 }
 
+/// Two cores against one: the same bits, and how much sooner.
+fn both_cores(job: &Job) -> Result<(), String> {
+    // Where an image is doesn't depend on its features: each is run before the next is built.
+    let run = |features| cores::trace(&build_with(&DISPLAYS[0], features)?, job);
+    let one = run("one-core")?;
+    let two = run("rtt")?;
+    let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
+    rgb565::draw(job.scene, job.width, job.height, &mut picture);
+    let sum = rgb565::sum(0, &picture);
+    if one.sum != sum || two.sum != sum {
+        return Err(format!("the host's pixels sum to {sum:#x}, {one:#x?} and {two:#x?}"));
+    }
+    let busier = two.cycles[0].max(two.cycles[1]);
+    let ratio = one.cycles[0] as f64 / busier as f64;
+    println!("     one core {} cycles, two {:?}: {ratio:.2} times", one.cycles[0], two.cycles);
+    if ratio >= TWO_CORES { Ok(()) } else { Err(format!("only {ratio:.2} times as fast")) }
+}
+
 fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
     Job { scene, arith: ArithName::Fixed, width, height }
 }
 
 fn build(display: &Display) -> Result<PathBuf, String> {
-    let features = format!("{},rtt", display.name);
+    build_with(display, "rtt,one-core")
+}
+
+fn build_with(display: &Display, more: &str) -> Result<PathBuf, String> {
+    let features = format!("{},{more}", display.name);
     let more = ["--no-default-features", "--features", &features];
     machine::build_with(&boards().join("pico"), "pico", TARGET, &more)
 }

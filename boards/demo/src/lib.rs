@@ -4,6 +4,7 @@
 #![no_std]
 
 pub mod checksum;
+pub mod deal;
 pub mod frame;
 pub mod job;
 pub mod oled;

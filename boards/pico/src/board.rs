@@ -1,13 +1,18 @@
 //! Pins and clocks.
 
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::pixelcolor::RgbColor;
 use mipidsi::Builder;
 use rp2040_hal::clocks::{Clock, init_clocks_and_plls};
 use rp2040_hal::dma::DMAExt;
-use rp2040_hal::gpio::bank0::{Gpio12, Gpio15};
-use rp2040_hal::gpio::{FunctionSioOutput, Pin, PinState, Pins, PullDown};
+use rp2040_hal::gpio::bank0::{Gpio12, Gpio14, Gpio15};
+use rp2040_hal::gpio::{
+    FunctionSioInput, FunctionSioOutput, Pin, PinState, Pins, PullDown, PullUp,
+};
 use rp2040_hal::{Sio, Spi, Timer, Watchdog, pac};
 
-use crate::link::{Bands, Link};
+use crate::cores::Second;
+use crate::link::Link;
 use crate::panel;
 use crate::sleep::Sleep;
 
@@ -18,21 +23,44 @@ const CRYSTAL_HZ: u32 = 12_000_000;
 pub(crate) type Display =
     mipidsi::Display<Link, panel::Model, Pin<Gpio12, FunctionSioOutput, PullDown>>;
 
-/// The board with its display on.
+/// The board.
 pub(crate) struct Board {
-    pub(crate) display: Display,
     /// High while a frame is drawn, for the emulator or an oscilloscope.
     pub(crate) mark: Pin<Gpio15, FunctionSioOutput, PullDown>,
+    /// Low while the button is held.
+    pub(crate) button: Pin<Gpio14, FunctionSioInput, PullUp>,
     pub(crate) timer: Timer,
     pub(crate) sleep: Sleep,
+    pub(crate) second: Second,
+}
+
+/// The display's connection, and its reset line, before it is started.
+pub(crate) struct Unstarted {
+    link: Link,
+    reset: Pin<Gpio12, FunctionSioOutput, PullDown>,
+}
+
+impl Unstarted {
+    /// Starts the display, black.
+    ///
+    /// # Panics
+    /// Never: neither pins nor SPI can fail.
+    pub(crate) fn start(self, sleep: &mut Sleep) -> Display {
+        let mut display = panel::options(Builder::new(panel::MODEL, self.link))
+            .reset_pin(self.reset)
+            .init(sleep)
+            .expect("neither pins nor SPI can fail");
+        let Ok(()) = display.clear(RgbColor::BLACK);
+        display
+    }
 }
 
 impl Board {
     /// The one board there is.
     ///
     /// # Panics
-    /// When called twice, or if clocks or display can't be started.
-    pub(crate) fn take() -> Self {
+    /// When called twice, or if clocks can't be started.
+    pub(crate) fn take() -> (Self, Unstarted) {
         let mut chip = pac::Peripherals::take().expect("a board is taken once");
         let mut watchdog = Watchdog::new(chip.WATCHDOG);
         let clocks = init_clocks_and_plls(
@@ -46,7 +74,7 @@ impl Board {
         )
         .expect("the crystal of a Pico");
         let mut timer = Timer::new(chip.TIMER, &mut chip.RESETS, &clocks);
-        let mut sleep = Sleep::new(timer.alarm_0().expect("nobody has taken an alarm"));
+        let sleep = Sleep::new(timer.alarm_0().expect("nobody has taken an alarm"));
 
         let sio = Sio::new(chip.SIO);
         let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);
@@ -60,15 +88,17 @@ impl Board {
         let link = Link::new(
             spi,
             chip.DMA.split(&mut chip.RESETS).ch0,
-            Bands::take(),
             pins.gpio9.into_push_pull_output_in_state(PinState::High),
             pins.gpio8.into_push_pull_output(),
         );
         let reset = pins.gpio12.into_push_pull_output_in_state(PinState::High);
-        let display = panel::options(Builder::new(panel::MODEL, link))
-            .reset_pin(reset)
-            .init(&mut sleep)
-            .expect("neither pins nor SPI can fail");
-        Self { display, mark: pins.gpio15.into_push_pull_output(), timer, sleep }
+        let board = Self {
+            mark: pins.gpio15.into_push_pull_output(),
+            button: pins.gpio14.into_pull_up_input(),
+            timer,
+            sleep,
+            second: Second::start(sio.fifo, &mut chip.PSM, &mut chip.PPB),
+        };
+        (board, Unstarted { link, reset })
     }
 }

@@ -1,6 +1,7 @@
 //! A frame, by each way.
 
 use core::convert::Infallible;
+use core::sync::atomic::{AtomicU32, Ordering};
 
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor;
@@ -10,22 +11,29 @@ use whitted::Picture;
 use whitted::frame::{Output, Renderer, Rgb565};
 use whitted::math::Fixed;
 use whitted::trace::Work;
+use whitted_demo::deal::Claim;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::rgb565;
 use whitted_demo::stack;
 
 use crate::board::{Board, Display};
+use crate::cores::Second;
 use crate::log;
-use crate::order::{Order, Way};
+use crate::order::{Frame, Order, Way};
+use crate::rows::{self, Band};
 
 impl Board {
-    /// Clears the display and draws a frame in its upper left corner, between two edges of the
-    /// mark. The stack is painted below `top`.
-    pub(crate) fn frame(&mut self, order: &Order, top: usize) {
-        let Ok(()) = self.display.clear(RgbColor::BLACK);
+    /// Draws a frame in the upper left corner of a display, between two edges of the mark; without
+    /// one it is only traced. The stack is painted below `top`.
+    pub(crate) fn frame(&mut self, display: Option<&mut Display>, order: &Order, top: usize) {
         let start = self.timer.get_counter();
         let Ok(()) = self.mark.set_high();
-        let Ok(()) = draw(&mut self.display, order);
+        match display {
+            Some(display) => {
+                let Ok(()) = draw(display, &mut self.second, order);
+            }
+            None => keep(&mut self.second, order.frame),
+        }
         let Ok(()) = self.mark.set_low();
         let time = self.timer.get_counter() - start;
         let (stack, memory) = (stack::used(top), stack::static_bytes());
@@ -35,43 +43,74 @@ impl Board {
 
 /// Not inlined, so that the stack it takes is its own.
 #[inline(never)]
-fn draw(display: &mut Display, order: &Order) -> Result<(), Infallible> {
-    let Order { scene, width, height, way } = *order;
-    let mut work = Work::<_, MAX_DEPTH>::new();
-    let (shot, mut renderer) = rgb565::renderer(scene, width, height, &mut work);
-    let mut y = 0;
-    let next = |bytes: &mut [u8]| band(&mut renderer, &mut y, &shot.output, bytes);
+fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(), Infallible> {
+    let Order { frame, way } = *order;
     match way {
         Way::Bands => {
             // The driver opens the window, the link fills it.
-            display.set_pixels(0, 0, width - 1, height - 1, core::iter::empty())?;
-            // SAFETY: only the pixels of the window that has just been opened are sent, so the
-            // driver goes on knowing the controller's settings.
-            unsafe { display.dcs() }.send_bands(next)
+            display.set_pixels(0, 0, frame.width - 1, frame.height - 1, core::iter::empty())?;
+            rows::begin(frame.height);
+            let mut sent = Ok(());
+            second.help(frame, || {
+                // SAFETY: only the pixels of the window that has just been opened are sent, so the
+                // driver goes on knowing the controller's settings.
+                let link = unsafe { display.dcs() };
+                trace(frame, |line, row| sent = link.send_rows(line, row));
+            });
+            sent
         }
         Way::Graphics => {
+            let mut work = Work::<_, MAX_DEPTH>::new();
+            let Frame { scene, width, height } = frame;
+            let (shot, renderer) = rgb565::renderer(scene, width, height, &mut work);
             let picture =
                 Picture::<_, pixelcolor::Rgb565, MAX_DEPTH>::from_renderer(renderer, shot.output);
             Image::new(&picture, Point::zero()).draw(display)
         }
         Way::Trace => {
-            // SAFETY: nothing is sent at all.
-            unsafe { display.dcs() }.keep_bands(next);
+            keep(second, frame);
             Ok(())
         }
     }
 }
 
-/// Traces the rows from `y` on, as many as fit, and returns how many bytes that were. Not inlined:
-/// the tracer is large, and two ways need it.
+/// The sum over the pixels of the frame that was traced last and not sent, for an emulator to read.
+// SAFETY: nothing else has this name.
+#[unsafe(no_mangle)]
+#[used]
+static TRACED: AtomicU32 = AtomicU32::new(0);
+
+/// Traces a frame that nobody sees.
 #[inline(never)]
-fn band(
-    renderer: &mut Renderer<'_, Fixed, MAX_DEPTH>,
-    y: &mut u16,
-    output: &Output,
-    bytes: &mut [u8],
-) -> usize {
-    let rows = renderer.band::<Rgb565>(*y, output, bytes);
-    *y += rows;
-    usize::from(rows) * usize::from(renderer.settings().width) * rgb565::BYTES
+fn keep(second: &mut Second, frame: Frame) {
+    rows::begin(frame.height);
+    let mut sum = 0;
+    second.help(frame, || {
+        trace(frame, |line, row| {
+            while !rows::is_over() {
+                if let Some(band) = rows::take_band() {
+                    sum = Band::of(&band, line).read(|bytes| rgb565::sum(sum, bytes));
+                    rows::free(&band);
+                }
+                let (Claim::Row(_) | Claim::Wait | Claim::Over) = rows::work(line, &mut *row);
+            }
+        });
+    });
+    TRACED.store(sum, Ordering::Relaxed);
+}
+
+/// Makes a tracer of a frame's rows, and has `share` give it rows of so many bytes. Not inlined:
+/// the tracer is large, and either core has its memory on its stack.
+#[inline(never)]
+pub(crate) fn trace(frame: Frame, share: impl FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))) {
+    let Frame { scene, width, height } = frame;
+    let mut work = Work::<_, MAX_DEPTH>::new();
+    let (shot, mut renderer) = rgb565::renderer(scene, width, height, &mut work);
+    share(frame.line(), &mut |y, bytes| row(&mut renderer, y, &shot.output, bytes));
+}
+
+/// Traces a row: one copy of the tracer for all ways but that of embedded-graphics.
+#[inline(never)]
+fn row(renderer: &mut Renderer<'_, Fixed, MAX_DEPTH>, y: u16, output: &Output, bytes: &mut [u8]) {
+    renderer.band::<Rgb565>(y, output, bytes);
 }

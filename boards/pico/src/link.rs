@@ -3,7 +3,6 @@
 
 use core::convert::Infallible;
 
-use embedded_dma::ReadBuffer;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiBus;
 use mipidsi::interface::{Interface, InterfaceKind};
@@ -14,49 +13,13 @@ use rp2040_hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown};
 use rp2040_hal::pac::SPI1;
 use rp2040_hal::spi::{Enabled, Spi};
 
-/// Bytes a buffer holds: eight rows of 240 pixels.
-const BAND: usize = 240 * 2 * 8;
+use crate::rows::{self, Band};
 
 /// SPI1 with its clock and its data line.
 type Wires =
     Spi<Enabled, SPI1, (Pin<Gpio11, FunctionSpi, PullDown>, Pin<Gpio10, FunctionSpi, PullDown>)>;
 /// An output.
 type Output<I> = Pin<I, FunctionSioOutput, PullDown>;
-
-/// A buffer, and how much of it is to be sent.
-pub(crate) struct Band {
-    bytes: &'static mut [u8; BAND],
-    filled: usize,
-}
-
-// SAFETY: the bytes are static and stay where they are, and `filled` counts from their start and
-// is at most their number.
-unsafe impl ReadBuffer for Band {
-    type Word = u8;
-
-    unsafe fn read_buffer(&self) -> (*const u8, usize) {
-        (self.bytes.as_ptr(), self.filled.min(BAND))
-    }
-}
-
-/// The two buffers.
-pub(crate) struct Bands(Band, Band);
-
-impl Bands {
-    /// The two there are.
-    ///
-    /// # Panics
-    /// When called twice.
-    pub(crate) fn take() -> Self {
-        let first = cortex_m::singleton!(FIRST: [u8; BAND] = [0; BAND]);
-        let second = cortex_m::singleton!(SECOND: [u8; BAND] = [0; BAND]);
-        let band = |bytes: Option<&'static mut _>| Band {
-            bytes: bytes.expect("buffers are taken once"),
-            filled: 0,
-        };
-        Self(band(first), band(second))
-    }
-}
 
 /// What sends, and the buffer that goes with it.
 enum Sender {
@@ -65,6 +28,14 @@ enum Sender {
 }
 
 impl Sender {
+    /// Whether nothing is on its way.
+    fn is_done(&self) -> bool {
+        match self {
+            Self::Idle(..) => true,
+            Self::Busy(transfer) => transfer.is_done(),
+        }
+    }
+
     /// Waits for the buffer to be sent.
     fn wait(self) -> (Channel<CH0>, Wires, Band) {
         match self {
@@ -93,12 +64,11 @@ impl Link {
     pub(crate) fn new(
         wires: Wires,
         channel: Channel<CH0>,
-        Bands(first, second): Bands,
         select: Output<Gpio9>,
         data_command: Output<Gpio8>,
     ) -> Self {
-        let sender = Some(Sender::Idle(channel, wires, first));
-        Self { sender, band: Some(second), select, data_command }
+        let sender = Some(Sender::Idle(channel, wires, Band::half(false)));
+        Self { sender, band: Some(Band::half(true)), select, data_command }
     }
 
     /// Sends pixels in bands: `fill` gets one buffer, while the other is sent, and says how many
@@ -110,8 +80,7 @@ impl Link {
         self.select.set_low()?;
         let mut band = self.band.take().expect(PUT_BACK);
         loop {
-            band.filled = fill(band.bytes);
-            if band.filled == 0 {
+            if band.fill(&mut fill) == 0 {
                 break;
             }
             band = self.exchange(band);
@@ -120,20 +89,37 @@ impl Link {
         self.finish()
     }
 
-    /// Has a buffer filled again and again, and sends nothing: to know what sending costs.
-    pub(crate) fn keep_bands(&mut self, mut fill: impl FnMut(&mut [u8]) -> usize) {
-        if let Some(band) = &mut self.band {
-            while fill(band.bytes) > 0 {
-                core::hint::black_box(&mut *band.bytes);
+    /// Sends the rows of the frame that is dealt, of `line` bytes each, in bands as they are
+    /// finished, and traces rows in the meantime.
+    pub(crate) fn send_rows(
+        &mut self,
+        line: usize,
+        row: &mut dyn FnMut(u16, &mut [u8]),
+    ) -> Result<(), Infallible> {
+        self.select.set_low()?;
+        // The band that is being sent.
+        let mut sending = None;
+        while !rows::is_over() {
+            if self.sender.as_ref().is_some_and(Sender::is_done)
+                && let Some(band) = sending.take()
+            {
+                rows::free(&band);
             }
+            if sending.is_none() {
+                sending = rows::take_band();
+                if let Some(band) = &sending {
+                    self.exchange(Band::of(band, line));
+                }
+            }
+            rows::work(line, &mut *row);
         }
+        self.finish()
     }
 
     /// Starts sending a buffer as soon as the other is sent, which comes back.
     fn exchange(&mut self, full: Band) -> Band {
-        let (channel, wires, mut band) = self.sender.take().expect(PUT_BACK).wait();
+        let (channel, wires, band) = self.sender.take().expect(PUT_BACK).wait();
         self.sender = Some(Sender::Busy(Config::new(channel, full, wires).start()));
-        band.filled = 0;
         band
     }
 

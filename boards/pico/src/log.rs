@@ -7,9 +7,9 @@ use crate::order::Order;
 pub(crate) fn frame(order: &Order, us: u64, stack: usize, memory: usize) {
     defmt::info!(
         "{=str} {=u16}x{=u16}: {=u64} us, stack {=usize} bytes, static RAM {=usize} bytes",
-        order.scene.name(),
-        order.width,
-        order.height,
+        order.frame.scene.name(),
+        order.frame.width,
+        order.frame.height,
         us,
         stack,
         memory

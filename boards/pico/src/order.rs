@@ -3,6 +3,7 @@
 use core::ptr;
 
 use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted_demo::rgb565;
 
 use crate::panel;
 
@@ -20,16 +21,43 @@ pub(crate) enum Way {
     Bands,
     /// As an image of embedded-graphics.
     Graphics,
-    /// Traced, but not sent: to know what sending costs.
+    /// Traced, but not sent, nor is the display started: to know what sending costs, and for an
+    /// emulator that has no SPI.
     Trace,
 }
 
-/// One frame.
+/// A picture.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Order {
+pub(crate) struct Frame {
     pub(crate) scene: SceneName,
     pub(crate) width: u16,
     pub(crate) height: u16,
+}
+
+impl Frame {
+    /// How many words it takes to tell the other core.
+    pub(crate) const WORDS: usize = 2;
+
+    pub(crate) fn words(self) -> [u32; Self::WORDS] {
+        let scene = SceneName::ALL.iter().position(|&s| s == self.scene).unwrap_or(0);
+        [scene as u32, u32::from(self.width) << 16 | u32::from(self.height)]
+    }
+
+    pub(crate) fn from_words([scene, size]: [u32; Self::WORDS]) -> Self {
+        let scene = SceneName::ALL.get(scene as usize).copied().unwrap_or(SceneName::Showcase);
+        Self { scene, width: (size >> 16) as u16, height: size as u16 }
+    }
+
+    /// Bytes in a row.
+    pub(crate) fn line(self) -> usize {
+        usize::from(self.width) * rgb565::BYTES
+    }
+}
+
+/// A picture and how it gets to the display.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Order {
+    pub(crate) frame: Frame,
     pub(crate) way: Way,
 }
 
@@ -55,6 +83,7 @@ impl Order {
         assert!(job.arith == ArithName::Fixed, "this board draws in fixed point");
         let (width, height) = panel::SIZE;
         assert!(job.width <= width && job.height <= height, "the display is smaller");
-        Some(Self { scene: job.scene, width: job.width, height: job.height, way })
+        let frame = Frame { scene: job.scene, width: job.width, height: job.height };
+        Some(Self { frame, way })
     }
 }

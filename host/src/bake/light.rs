@@ -17,30 +17,42 @@ pub(super) struct Lights<A: Construct> {
 }
 
 impl<A: Construct> Lights<A> {
-    /// Makes all lights of a document that has been placed, whose shapes have their numbers.
-    pub(super) fn new(document: &Document, shapes: &Shapes<A>) -> Result<Self, Flaw> {
+    /// Makes all lights of a document that has been placed, whose shapes have their numbers;
+    /// `bodies` has the indices of those that show lights.
+    pub(super) fn new(
+        document: &Document,
+        shapes: &Shapes<A>,
+        bodies: &[Option<usize>],
+    ) -> Result<Self, Flaw> {
         let mut lights = Self { points: Vec::new(), areas: Vec::new(), corners: Vec::new() };
-        for light in &document.lights {
-            let refuse = |error| refused::<A>("the light", error, Some(light.line));
-            if let LightKind::Area { area, error, samples, body } = &light.kind {
-                let first = lights.corners.len() as u32;
-                if let Area::Polygon { corners } = area {
-                    let fan = (0..corners.len() - 1).map(|i| A::new_fan_corner(corners, i));
-                    lights.corners.extend(fan.collect::<Result<Vec<_>, _>>().map_err(refuse)?);
-                }
-                let spec = AreaLightSpec {
-                    area: of(area, first),
-                    radiance: light.color,
-                    error: *error,
-                    samples: *samples,
-                    body: body.and_then(|index| shapes.number(index)),
-                };
-                lights.areas.push(A::new_area_light(&spec).map_err(refuse)?);
-            } else {
-                lights.points.extend(point(light)?);
-            }
+        for (index, light) in document.lights.iter().enumerate() {
+            let body = bodies.get(index).copied().flatten();
+            let body = body.and_then(|index| shapes.number(index));
+            lights.add(light, body).map_err(|flaw| flaw.within(document.file_of_light(index)))?;
         }
         Ok(lights)
+    }
+
+    fn add(&mut self, light: &document::Light, body: Option<u32>) -> Result<(), Flaw> {
+        let LightKind::Area { area, error, samples, .. } = &light.kind else {
+            self.points.extend(point(light)?);
+            return Ok(());
+        };
+        let refuse = |error| refused::<A>("the light", error, Some(light.line));
+        let first = self.corners.len() as u32;
+        if let Area::Polygon { corners } = area {
+            let fan = (0..corners.len() - 1).map(|i| A::new_fan_corner(corners, i));
+            self.corners.extend(fan.collect::<Result<Vec<_>, _>>().map_err(refuse)?);
+        }
+        let spec = AreaLightSpec {
+            area: of(area, first),
+            radiance: light.color,
+            error: *error,
+            samples: *samples,
+            body,
+        };
+        self.areas.push(A::new_area_light(&spec).map_err(refuse)?);
+        Ok(())
     }
 }
 

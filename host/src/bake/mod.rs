@@ -1,16 +1,14 @@
 //! From a [`Document`] to the core's scene in one of its arithmetics, in memory.
 
 mod construct;
+mod light;
 mod place;
 mod shapes;
 
 pub use construct::Construct;
+use light::Lights;
 pub use place::Placement;
 use shapes::Shapes;
-
-mod light;
-
-use light::Lights;
 
 use whitted::scene::{
     Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow,
@@ -40,7 +38,8 @@ impl<A: Construct> Baked<A> {
     /// What of it the arithmetic can't hold, with its line.
     pub fn new(document: &Document) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
-        let placed = placement.place(document);
+        let mut placed = placement.place(document);
+        let bodies = placed.embody();
         let background = match placed.background {
             document::Background::Color(color) => A::new_uniform(color),
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
@@ -49,7 +48,7 @@ impl<A: Construct> Baked<A> {
         let baked = Self {
             placement,
             materials: materials(&placed)?,
-            lights: Lights::new(&placed, &shapes)?,
+            lights: Lights::new(&placed, &shapes, &bodies)?,
             shapes,
             ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
@@ -118,7 +117,7 @@ impl<A: Construct> Baked<A> {
 
 fn refused<A: Construct>(what: &str, error: ShapeError, line: Option<usize>) -> Flaw {
     let why = format!("{error} (in {} arithmetic)", A::NAME);
-    Flaw { line, problem: Problem::Unrepresentable { what: what.into(), why } }
+    Flaw { line, file: None, problem: Problem::Unrepresentable { what: what.into(), why } }
 }
 
 fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw> {
@@ -151,5 +150,7 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
         })
         .map_err(refuse)
     };
-    document.materials.iter().map(make).collect()
+    let from = |i| document.file_of_material(i);
+    let all = document.materials.iter().enumerate();
+    all.map(|(i, m)| make(m).map_err(|flaw| flaw.within(from(i)))).collect()
 }

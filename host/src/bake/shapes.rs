@@ -117,7 +117,9 @@ impl<A: Construct> Shapes<A> {
             tree: None,
         };
         for (index, shape) in document.shapes.iter().enumerate() {
-            let refuse = |e| super::refused::<A>(shape.body.name(), e, Some(shape.line));
+            let from = document.file_of_shape(index);
+            let refuse =
+                |e| super::refused::<A>(shape.body.name(), e, Some(shape.line)).within(from);
             let material = u16::try_from(shape.material).map_err(|_| refuse(ShapeError::Material));
             shapes.add(&shape.body, material?, index).map_err(refuse)?;
         }

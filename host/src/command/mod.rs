@@ -35,7 +35,7 @@ enum Command {
     Render(render::Options),
     /// Read and validate a scene, and say what is in it
     Check {
-        /// The scene: .toml or .nff
+        /// The scene: .toml, .nff or .obj
         scene: PathBuf,
     },
     /// Print the tree of rays of one pixel
@@ -175,7 +175,12 @@ fn print(text: fmt::Arguments<'_>) -> Result<(), Failure> {
 fn warn(file: &std::path::Path, document: &whitted_host::document::Document) {
     const MOST: usize = 5;
     for warning in document.warnings.iter().take(MOST) {
-        eprintln!("{}:{}: warning: {}", file.display(), warning.line, warning.text);
+        // Line 0 is the whole file.
+        let line = match warning.line {
+            0 => String::new(),
+            line => format!("{line}:"),
+        };
+        eprintln!("{}:{line} warning: {}", file.display(), warning.text);
     }
     if let Some(more) = document.warnings.len().checked_sub(MOST + 1) {
         eprintln!("{}: {} more warnings", file.display(), more + 1);

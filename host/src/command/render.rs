@@ -22,7 +22,7 @@ const SHOWCASE: &str = include_str!("../../scenes/showcase.toml");
 
 #[derive(clap::Args)]
 pub(super) struct Options {
-    /// The scene: .toml or .nff
+    /// The scene: .toml, .nff or .obj
     scene: PathBuf,
     /// Where the picture goes; - is standard output [default: the scene's name with .png, here]
     #[arg(short, long)]

@@ -1,6 +1,6 @@
 //! Lights.
 
-use super::{Body, Point, Rgb, add, scaled};
+use super::{Body, Point, Rgb, Transform, add, scaled};
 
 /// How a light weakens with distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,8 +47,8 @@ pub enum LightKind {
         error: f64,
         /// The least and the most shadow rays from a point.
         samples: [u16; 2],
-        /// The index of the shape that shows it, if it is visible.
-        body: Option<usize>,
+        /// Whether the camera and mirrors see it: whether a shape shows it.
+        visible: bool,
     },
 }
 
@@ -107,6 +107,37 @@ impl Area {
         }
     }
 
+    /// The area elsewhere, its front where it goes with it. Lengths must all grow by `scale`.
+    #[must_use]
+    pub fn placed(&self, by: &Transform, scale: f64) -> Self {
+        match self {
+            Self::Rectangle { corner, edges: [u, v] } => {
+                let (u, v) = (by.direction(*u), by.direction(*v));
+                let edges = if by.mirrors() { [v, u] } else { [u, v] };
+                Self::Rectangle { corner: by.point(*corner), edges }
+            }
+            Self::Triangle { corners } => {
+                let [a, b, c] = corners.map(|c| by.point(c));
+                Self::Triangle { corners: if by.mirrors() { [a, c, b] } else { [a, b, c] } }
+            }
+            Self::Polygon { corners } => {
+                let mut corners: Vec<Point> = corners.iter().map(|&c| by.point(c)).collect();
+                if by.mirrors() {
+                    corners.reverse();
+                }
+                Self::Polygon { corners }
+            }
+            Self::Disc { center, normal, radius } => Self::Disc {
+                center: by.point(*center),
+                normal: by.normal(*normal),
+                radius: radius * scale,
+            },
+            Self::Sphere { center, radius } => {
+                Self::Sphere { center: by.point(*center), radius: radius * scale }
+            }
+        }
+    }
+
     /// Its middle, or nearly so.
     pub fn center(&self) -> Point {
         let mean = |corners: &[Point]| {
@@ -140,6 +171,14 @@ impl Light {
         match &self.kind {
             LightKind::Point { position, .. } | LightKind::Spot { position, .. } => Some(*position),
             LightKind::Directional { .. } | LightKind::Area { .. } => None,
+        }
+    }
+
+    /// The shape that shows it, if it is visible.
+    pub fn body(&self) -> Option<Body> {
+        match &self.kind {
+            LightKind::Area { area, visible: true, .. } => Some(area.body()),
+            _ => None,
         }
     }
 

@@ -12,17 +12,24 @@ mod background;
 mod camera;
 mod light;
 mod material;
+mod place;
 mod rules;
 mod shape;
+mod transform;
 mod vector;
 
 pub use background::Background;
 pub use camera::{Camera, Span};
 pub use light::{Area, Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
+pub use place::Misplaced;
 pub use rules::Rules;
 pub use shape::{Body, Shape};
+pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 /// Beyond this no arithmetic takes a coordinate.
 pub const FARTHEST: f64 = 1e8;
@@ -77,12 +84,74 @@ pub struct Document {
     pub shapes: Vec<Shape>,
     /// What the reader noticed.
     pub warnings: Vec<Warning>,
+    /// What came from other files than the document's own.
+    pub included: Vec<Included>,
+}
+
+/// Which shapes, materials and lights of a document came from another file: their lines are that
+/// file's. Where ranges lie one within the other, the last counts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Included {
+    /// The file.
+    pub file: PathBuf,
+    /// Its shapes.
+    pub shapes: Range<usize>,
+    /// Its materials.
+    pub materials: Range<usize>,
+    /// Its lights.
+    pub lights: Range<usize>,
 }
 
 impl Document {
-    /// The box around all shapes that end; `None` where there are none.
+    /// The box around all shapes that end, and visible lights; `None` where there are none.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.shapes.iter().filter_map(|shape| shape.body.bounds()).reduce(Bounds::union)
+        let shown = self.lights.iter().filter_map(|light| light.body()?.bounds());
+        let shapes = self.shapes.iter().filter_map(|shape| shape.body.bounds());
+        shapes.chain(shown).reduce(Bounds::union)
+    }
+
+    /// Adds the shapes that show visible lights, of materials that emit the same; for each light
+    /// the index of its shape.
+    pub fn embody(&mut self) -> Vec<Option<usize>> {
+        let mut indices = Vec::new();
+        for light in &self.lights {
+            let Some(body) = light.body() else {
+                indices.push(None);
+                continue;
+            };
+            let like = Material::matt(light.line);
+            let (emission, black) = (light.color, [0.0; 3]);
+            indices.push(Some(self.shapes.len()));
+            let material = self.materials.len();
+            self.shapes.push(Shape { body, material, line: light.line });
+            self.materials.push(Material {
+                name: "light".into(),
+                emission,
+                diffuse: black,
+                ambient: black,
+                ..like
+            });
+        }
+        indices
+    }
+
+    /// The file that a shape came from, if it isn't the document's own.
+    pub fn file_of_shape(&self, index: usize) -> Option<&Path> {
+        self.file_where(|part| part.shapes.contains(&index))
+    }
+
+    /// The file that a material came from, if it isn't the document's own.
+    pub fn file_of_material(&self, index: usize) -> Option<&Path> {
+        self.file_where(|part| part.materials.contains(&index))
+    }
+
+    /// The file that a light came from, if it isn't the document's own.
+    pub fn file_of_light(&self, index: usize) -> Option<&Path> {
+        self.file_where(|part| part.lights.contains(&index))
+    }
+
+    fn file_where(&self, holds: impl Fn(&Included) -> bool) -> Option<&Path> {
+        self.included.iter().rfind(|part| holds(part)).map(|part| part.file.as_path())
     }
 
     /// How many shapes there are of each kind, in the order in which the kinds first appear.

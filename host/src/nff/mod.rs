@@ -212,6 +212,7 @@ impl Reader<'_> {
             materials: self.materials,
             shapes: self.shapes,
             warnings: self.warnings,
+            included: Vec::new(),
         })
     }
 }
@@ -220,7 +221,7 @@ impl View {
     fn camera(&self) -> Result<Camera, Flaw> {
         let missing = |what: &str| {
             let problem = Problem::Missing { what: what.into() };
-            Flaw { line: self.started, problem }
+            Flaw { line: self.started, file: None, problem }
         };
         if self.started.is_none() && self.from.is_none() {
             return Err(missing("the view (v, then from, at, up, angle, resolution)"));

@@ -2,7 +2,7 @@
 
 use super::FALLOFFS;
 use super::table::Table;
-use crate::document::{Area, Falloff, Light, LightKind, Material, Point, Shape, cross, dot, sub};
+use crate::document::{Area, Falloff, Light, LightKind, Point, cross, dot, sub};
 use crate::error::{Flaw, Problem};
 use crate::polygon::{Parts, split};
 use whitted::scene::{AreaLight, AreaLightSpec};
@@ -33,16 +33,10 @@ const KINDS: [(&str, Kind); 8] = [
 /// The largest radiance of a surface that is seen.
 const BRIGHTEST_SEEN: f64 = 1000.0;
 
-/// A light, and whether it wants a body.
-pub(super) struct Read {
-    pub(super) light: Light,
-    visible: bool,
-}
-
 /// Brighter than any light within a picture; keeps a slip from overflowing.
 const BRIGHTEST: f64 = 1e9;
 
-pub(super) fn read(table: &Table<'_>, default: Falloff) -> Result<Read, Flaw> {
+pub(super) fn read(table: &Table<'_>, default: Falloff) -> Result<Light, Flaw> {
     let kind = table.get("type").map_or(Ok(Kind::Point), |v| v.word("type", &KINDS))?;
     if let Kind::Rectangle | Kind::Triangle | Kind::Polygon | Kind::Disc | Kind::Sphere = kind {
         return area_light(table, kind);
@@ -78,11 +72,11 @@ pub(super) fn read(table: &Table<'_>, default: Falloff) -> Result<Read, Flaw> {
         _ => return area_light(table, kind),
     };
     table.done()?;
-    Ok(Read { light: Light { kind, color, line: table.line }, visible: false })
+    Ok(Light { kind, color, line: table.line })
 }
 
 /// A light with an area.
-fn area_light(table: &Table<'_>, kind: Kind) -> Result<Read, Flaw> {
+fn area_light(table: &Table<'_>, kind: Kind) -> Result<Light, Flaw> {
     let visible = table.flag("visible", false)?;
     let most = if visible { BRIGHTEST_SEEN } else { BRIGHTEST };
     let color = table.need("radiance")?.color("radiance", most)?;
@@ -119,8 +113,8 @@ fn area_light(table: &Table<'_>, kind: Kind) -> Result<Read, Flaw> {
         turn(&mut area, at.point("look_at")?);
     }
     table.done()?;
-    let kind = LightKind::Area { area, error, samples, body: None };
-    Ok(Read { light: Light { kind, color, line: table.line }, visible })
+    let kind = LightKind::Area { area, error, samples, visible };
+    Ok(Light { kind, color, line: table.line })
 }
 
 fn area(table: &Table<'_>, kind: Kind) -> Result<Area, Flaw> {
@@ -204,20 +198,5 @@ fn turn(area: &mut Area, at: Point) {
         }
         // A disc has its normal from there, a sphere shines all around.
         Area::Disc { .. } | Area::Sphere { .. } => {}
-    }
-}
-
-/// Gives a visible light its body: the same area, emitting the same.
-pub(super) fn show(read: &mut Read, materials: &mut Vec<Material>, shapes: &mut Vec<Shape>) {
-    let Light { kind, color, line } = &mut read.light;
-    if let LightKind::Area { area, body, .. } = kind
-        && read.visible
-    {
-        let like = Material::matt(*line);
-        let (name, black) = ("light".into(), [0.0; 3]);
-        let material = Material { name, emission: *color, diffuse: black, ambient: black, ..like };
-        *body = Some(shapes.len());
-        shapes.push(Shape { body: area.body(), material: materials.len(), line: *line });
-        materials.push(material);
     }
 }

@@ -1,5 +1,7 @@
 //! Materials, and how shapes and checkers name them.
 
+use std::path::{Path, PathBuf};
+
 use super::table::{Table, Value};
 use crate::document::{Checker, Material, ShadowThrough};
 use crate::error::{Flaw, Problem};
@@ -15,47 +17,87 @@ pub(super) struct Names<'d> {
     materials: Vec<Material>,
     /// The material, and its checker's table without the name of the other.
     checkers: Vec<(usize, Checker, Value<'d>)>,
+    /// The materials of included files, by their places in the document.
+    included: Vec<Borrowed>,
+}
+
+/// A material of another file.
+struct Borrowed {
+    name: String,
+    index: usize,
+    file: PathBuf,
 }
 
 impl<'d> Names<'d> {
     /// Reads all materials.
     pub(super) fn read(tables: &[Table<'d>]) -> Result<Self, Flaw> {
-        let mut names = Self { materials: Vec::new(), checkers: Vec::new() };
+        let mut names = Self { materials: Vec::new(), checkers: Vec::new(), included: Vec::new() };
         for table in tables {
             names.add(table)?;
         }
         Ok(names)
     }
 
-    /// The materials, with their checkers.
-    pub(super) fn materials(&self) -> Result<Vec<Material>, Flaw> {
-        let mut materials = self.materials.clone();
+    /// The file's own materials, without their checkers.
+    pub(super) fn own(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Makes the names of another file known, whose materials begin at `first`.
+    pub(super) fn include(&mut self, materials: &[Material], first: usize, file: &Path) {
+        let named = materials.iter().enumerate().filter(|(_, m)| !m.name.is_empty());
+        self.included.extend(named.map(|(i, m)| Borrowed {
+            name: m.name.clone(),
+            index: first + i,
+            file: file.to_owned(),
+        }));
+    }
+
+    /// Puts the file's own checkers into its materials, which come first in the document.
+    pub(super) fn link(&self, materials: &mut [Material]) -> Result<(), Flaw> {
         for (index, checker, other) in &self.checkers {
             let other = self.find(other)?;
-            if self.materials.get(other).is_some() && other == *index {
+            if other == *index {
                 let why = "its two materials are the same";
                 return Err(Problem::degenerate("checker", why).at(self.materials[other].line));
             }
             materials[*index].checker = Some(Checker { other, ..*checker });
         }
-        Ok(materials)
+        Ok(())
     }
 
     /// The material that a shape names. Where the file has one material, it need not.
     pub(super) fn of(&self, shape: &Table<'_>) -> Result<usize, Flaw> {
         match shape.get("material") {
             Some(name) => self.find(&name),
-            None if self.materials.len() == 1 => Ok(0),
+            None if self.materials.len() == 1 && self.included.is_empty() => Ok(0),
             None => Err(shape.missing("key \"material\"")),
         }
     }
 
-    fn find(&self, value: &Value<'_>) -> Result<usize, Flaw> {
+    /// The file's own material of this name; else that of the files that it includes.
+    pub(super) fn find(&self, value: &Value<'_>) -> Result<usize, Flaw> {
         let name = value.text("material")?;
-        self.materials.iter().position(|m| m.name == name).ok_or_else(|| {
-            let known: Vec<&str> = self.materials.iter().map(|m| m.name.as_str()).collect();
-            Problem::unknown("material", name, &known).at(value.line)
-        })
+        if let Some(own) = self.materials.iter().position(|m| m.name == name) {
+            return Ok(own);
+        }
+        let mut others = self.included.iter().filter(|m| m.name == name);
+        match (others.next(), others.next()) {
+            (Some(one), None) => Ok(one.index),
+            (Some(one), Some(other)) if one.file == other.file => Ok(one.index),
+            (Some(one), Some(other)) => {
+                let [one, other] = [&one.file, &other.file].map(|f| f.display().to_string());
+                let why = format!("both {one} and {other} have one of this name");
+                let what = format!("material \"{}\"", crate::error::shown(name));
+                Err(Problem::degenerate(what, why).at(value.line))
+            }
+            (None, _) => {
+                let included = self.included.iter().map(|m| m.name.as_str());
+                let own = self.materials.iter().map(|m| m.name.as_str());
+                let known: Vec<&str> = own.chain(included).collect();
+                Err(Problem::unknown("material", name, &known).at(value.line))
+            }
+        }
     }
 
     fn add(&mut self, table: &Table<'d>) -> Result<(), Flaw> {

@@ -1,33 +1,42 @@
 //! Our own scene format, in TOML: all that the model has (described in `docs/scene-format.md`).
 
 mod body;
+mod include;
 mod light;
 mod material;
+mod place;
 mod table;
 
 use toml::de::DeTable;
 
-use crate::document::{Background, Camera, Document, Falloff, Point, Rules, Size, Span};
+use crate::document::{
+    Background, Body, Bounds, Camera, Document, FARTHEST, Falloff, Point, Rules, Shape, Size, Span,
+};
 use crate::error::{Flaw, Problem};
+use crate::read::Around;
 use material::Names;
 use table::{Lines, Table, Value};
 
-/// Reads a text in our own format.
+/// Reads a text in our own format; what it includes lies beside `around`'s file.
 ///
 /// # Errors
 /// The first thing that is wrong with it, with its line.
-pub fn parse(text: &str) -> Result<Document, Flaw> {
+pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
     let lines = Lines::of(text);
     let root = DeTable::parse(text).map_err(|error| {
         let line = error.span().map(|span| lines.at(span.start));
-        Flaw { line, problem: Problem::Syntax(error.message().to_owned()) }
+        Flaw { line, file: None, problem: Problem::Syntax(error.message().to_owned()) }
     })?;
     let scene = Table::new(root.get_ref(), &lines, "", 1);
 
-    let camera = scene.get("camera").ok_or_else(|| {
-        Problem::Missing { what: "the camera ([camera] eye, look_at)".into() }.anywhere()
-    })?;
-    let camera = camera_of(&camera.table("camera")?)?;
+    let camera = match scene.get("camera") {
+        Some(camera) => camera_of(&camera.table("camera")?)?,
+        None if around.is_included() => NOWHERE,
+        None => {
+            let what = "the camera ([camera] eye, look_at)".into();
+            return Err(Problem::Missing { what }.anywhere());
+        }
+    };
     let (size, rules) = match scene.get("render") {
         Some(render) => render_of(&render.table("render")?)?,
         None => (None, Rules::SLIDES),
@@ -38,40 +47,97 @@ pub fn parse(text: &str) -> Result<Document, Flaw> {
     };
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
-    let names = Names::read(&tables(&scene, "material")?)?;
-    let mut materials = names.materials()?;
+    let mut names = Names::read(&tables(&scene, "material")?)?;
     let lights = tables(&scene, "light")?;
-    let mut lights: Vec<_> =
-        lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
+    let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
+    let mut document = Document {
+        camera,
+        size,
+        background,
+        ambient,
+        rules,
+        materials: names.own().to_vec(),
+        lights,
+        shapes: Vec::new(),
+        warnings: Vec::new(),
+        included: Vec::new(),
+    };
+    let included = include::all(&scene, around, &mut document, &mut names)?;
+    names.link(&mut document.materials)?;
+
     let mut shapes = Vec::new();
     for (kind, read) in body::KINDS {
         for table in tables(&scene, kind)? {
             let material = names.of(&table)?;
             let bodies = read(&table)?;
+            let copies = place::read(&table)?;
             table.done()?;
             for body in bodies {
                 if let Some(why) = body.flaw() {
                     return Err(Problem::degenerate(table.name, why).at(table.line));
                 }
-                shapes.push(crate::document::Shape { body, material, line: table.line });
+                room(copies.len() + shapes.len(), table.line)?;
+                for by in &copies {
+                    let wrong = |why| Problem::degenerate(table.name, why).at(table.line);
+                    for body in body.placed(by).map_err(wrong)? {
+                        if let Some(why) = body.flaw() {
+                            return Err(wrong(why));
+                        }
+                        within(&body, table.line)?;
+                        shapes.push(Shape { body, material, line: table.line });
+                    }
+                }
             }
         }
     }
     scene.done()?;
-    if shapes.is_empty() {
+    // The kinds were read one after the other; numbers go by the file's order.
+    shapes.sort_by_key(|shape| shape.line);
+    document.shapes = shapes;
+    for part in included {
+        part.place(&mut document)?;
+    }
+    if document.shapes.is_empty() && !around.is_included() {
         let kinds: Vec<String> =
             body::KINDS.iter().map(|(kind, _)| format!("[[{kind}]]")).collect();
         let what = format!("a shape ({})", kinds.join(", "));
         return Err(Problem::Missing { what }.anywhere());
     }
-    // The kinds were read one after the other; numbers go by the file's order.
-    shapes.sort_by_key(|shape| shape.line);
-    for light in &mut lights {
-        light::show(light, &mut materials, &mut shapes);
+    Ok(document)
+}
+
+/// A scene's camera for files that are seen by another file's.
+const NOWHERE: Camera = Camera {
+    eye: [0.0, 0.0, 1.0],
+    look_at: [0.0; 3],
+    up: [0.0, 1.0, 0.0],
+    angle: 45.0,
+    span: Span::Edges,
+};
+
+/// More shapes than an octree counts are no scene.
+fn room(shapes: usize, line: usize) -> Result<(), Flaw> {
+    const MOST: usize = 8_388_607;
+    if shapes <= MOST {
+        return Ok(());
     }
-    let lights = lights.into_iter().map(|light| light.light).collect();
-    let warnings = Vec::new();
-    Ok(Document { camera, size, background, ambient, rules, materials, lights, shapes, warnings })
+    Err(Problem::range("number of shapes", shapes as f64, format!("at most {MOST}")).at(line))
+}
+
+/// Whether what was placed lies where coordinates may.
+fn within(body: &Body, line: usize) -> Result<(), Flaw> {
+    let bounds = match body {
+        Body::Plane { point, .. } => Bounds::around(&[*point]),
+        _ => body.bounds(),
+    };
+    let coordinates = bounds.into_iter().flat_map(|b| b.low.into_iter().chain(b.high));
+    match coordinates.into_iter().find(|x| x.is_nan() || x.abs() > 2.0 * FARTHEST) {
+        None => Ok(()),
+        Some(x) => {
+            let right = format!("within ±{FARTHEST}");
+            Err(Problem::range("placed coordinate", x, right).at(line))
+        }
+    }
 }
 
 /// The tables of an array of tables, none if it isn't there.

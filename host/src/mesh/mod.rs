@@ -1,0 +1,7 @@
+//! What readers of meshes share: faces, and a view for files that say nothing of one.
+
+mod face;
+mod frame;
+
+pub(crate) use face::{Faces, Skipped};
+pub(crate) use frame::frame;

@@ -1,0 +1,164 @@
+//! What samplers remember of a ray, and when two of them differ.
+//!
+//! Two samples differ if their colours do by more than a threshold, on 8-bit sRGB, or if the rays
+//! met different objects, or the same with other lights in shadow. Object and shadows are kept as
+//! a signature of eight bits. It is made by a tally that stands before the user's, so that the
+//! tracer knows nothing of it.
+
+use super::{Output, Rgb888};
+use crate::math::{Arithmetic, Rgb};
+use crate::shape::Ray;
+use crate::tally::{RayKind, Tally, Term};
+
+/// What a sampler remembers of a ray: 16 bytes, 32 in `f64`.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<A: Arithmetic> {
+    pub(super) radiance: Rgb<A::Radiance>,
+    srgb: [u8; 3],
+    /// 0 where no ray has been sent.
+    signature: u8,
+}
+
+impl<A: Arithmetic> Sample<A> {
+    /// No ray yet: what memory for samples is filled with.
+    pub const NONE: Self = Self { radiance: [A::BLACK; 3], srgb: [0; 3], signature: 0 };
+
+    /// What a ray found.
+    #[inline(always)]
+    pub(super) fn new(radiance: Rgb<A::Radiance>, signature: u8) -> Self {
+        let Rgb888(srgb) = Output::SRGB.pixel::<A, Rgb888>(&radiance, 0, 0);
+        Self { radiance, srgb, signature: if signature == 0 { 1 } else { signature } }
+    }
+
+    /// A radiance that nothing will be compared with.
+    #[inline(always)]
+    pub(super) fn plain(radiance: Rgb<A::Radiance>) -> Self {
+        Self { radiance, srgb: [0; 3], signature: 1 }
+    }
+
+    /// Whether a ray has been sent.
+    #[inline(always)]
+    pub(super) fn is_known(&self) -> bool {
+        self.signature != 0
+    }
+}
+
+impl<A: Arithmetic> Default for Sample<A> {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+/// Whether any two of four samples differ.
+#[inline(always)]
+pub(super) fn differ<A: Arithmetic>(samples: &[Sample<A>; 4], threshold: u8) -> bool {
+    let [a, b, c, d] = samples;
+    let signature = a.signature;
+    if b.signature != signature || c.signature != signature || d.signature != signature {
+        return true;
+    }
+    let apart = |i: usize| {
+        let (a, b, c, d) = (a.srgb[i], b.srgb[i], c.srgb[i], d.srgb[i]);
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        let (low, high) = (if c < low { c } else { low }, if c > high { c } else { high });
+        let (low, high) = (if d < low { d } else { low }, if d > high { d } else { high });
+        high - low > threshold
+    };
+    apart(0) || apart(1) || apart(2)
+}
+
+/// Makes a signature out of what the tracer reports, and hands all of it on.
+pub(super) struct Watch<'t, T> {
+    tally: &'t mut T,
+    pub(super) signature: u8,
+}
+
+impl<'t, T> Watch<'t, T> {
+    #[inline(always)]
+    pub(super) fn new(tally: &'t mut T) -> Self {
+        Self { tally, signature: 0 }
+    }
+}
+
+impl<T: Tally> Tally for Watch<'_, T> {
+    #[inline(always)]
+    fn ray<A: Arithmetic>(&mut self, kind: RayKind, depth: u8, ray: &Ray<A>, w: &Rgb<A::Weight>) {
+        self.tally.ray(kind, depth, ray, w);
+    }
+
+    #[inline(always)]
+    fn hit<A: Arithmetic>(&mut self, kind: RayKind, shape: u32, distance: A::Length) {
+        if kind == RayKind::Primary {
+            // An odd factor keeps shapes apart whose numbers differ by less than 256.
+            self.signature = (shape as u8).wrapping_add(1).wrapping_mul(0x9d);
+        }
+        self.tally.hit::<A>(kind, shape, distance);
+    }
+
+    #[inline(always)]
+    fn term<A: Arithmetic>(&mut self, term: Term, radiance: &Rgb<A::Radiance>) {
+        self.tally.term::<A>(term, radiance);
+    }
+
+    #[inline(always)]
+    fn shadowed(&mut self, light: u16, depth: u8) {
+        if depth == 1 {
+            self.signature ^= 0x35u8.rotate_left(u32::from(light));
+        }
+        self.tally.shadowed(light, depth);
+    }
+
+    #[inline(always)]
+    fn node(&mut self) {
+        self.tally.node();
+    }
+
+    #[inline(always)]
+    fn test(&mut self) {
+        self.tally.test();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(radiance: f64, signature: u8) -> Sample<f64> {
+        Sample::new([radiance; 3], signature)
+    }
+
+    #[test]
+    fn samples_differ_by_colour_and_by_signature() {
+        let a = grey(0.5, 7);
+        // 188.0 and 190.0 on the sRGB curve
+        let near = grey(0.5143, 7);
+        assert!(!differ(&[a, near, a, near], 2));
+        assert!(differ(&[a, near, a, near], 1));
+        for place in 0..4 {
+            let mut four = [a; 4];
+            four[place] = grey(0.5, 8);
+            assert!(differ(&four, 255));
+            four[place] = Sample::new([0.5, 0.5, 0.4], 7);
+            assert!(differ(&four, 4) && !differ(&four, 255));
+        }
+    }
+
+    #[test]
+    fn signatures_tell_shapes_and_shadows_apart() {
+        let mut tally = ();
+        let mut signature = |shape: u32, shadows: &[u16], deeper: bool| {
+            let mut watch = Watch::new(&mut tally);
+            watch.hit::<f64>(RayKind::Primary, shape, 1.0);
+            watch.hit::<f64>(RayKind::Reflection, 99, 1.0);
+            shadows.iter().for_each(|&light| watch.shadowed(light, 1));
+            if deeper {
+                watch.shadowed(0, 2);
+            }
+            watch.signature
+        };
+        assert!((1..256).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
+        assert!((0..8).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
+        assert!(signature(3, &[0, 1], false) != signature(3, &[0], false));
+        assert_eq!(signature(3, &[1], true), signature(3, &[1], false));
+    }
+}

@@ -1,0 +1,67 @@
+//! The Pico's two cores, in an emulator that has both but no display: the frame is traced and
+//! kept.
+
+use std::path::Path;
+use std::process::Command;
+
+use rp2040_emu::{Config, Emulator};
+use whitted_demo::job::Job;
+
+use crate::elf;
+use crate::setup;
+use crate::shell::{self, boards};
+
+const FLASH: u64 = 0x1000_0000;
+const FLASH_SIZE: usize = 2 << 20;
+/// High while a frame is drawn.
+const MARK: u8 = 15;
+/// Steps of the emulator without a frame: some minutes.
+const PATIENCE: u64 = 2_000_000_000;
+
+/// What a frame took.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    /// Cycles of either core between the edges of the mark.
+    pub(crate) cycles: [u64; 2],
+    /// The sum over the pixels.
+    pub(crate) sum: u32,
+}
+
+/// Runs an image from its reset vector until the frame is traced.
+pub(crate) fn trace(image: &Path, job: &Job) -> Result<Frame, String> {
+    let rom = image.with_extension("rom");
+    let python = setup::python()?;
+    shell::run(Command::new(python).arg("-B").arg(boards().join("pico/emulate/rom.py")).arg(&rom))?;
+    let rom = std::fs::read(&rom).map_err(|error| format!("{}: {error}", rom.display()))?;
+
+    let mut flash = vec![0xff; FLASH_SIZE];
+    for (address, data) in elf::segments(image)? {
+        let start = address.checked_sub(FLASH).ok_or("a segment below the flash")? as usize;
+        let place = flash.get_mut(start..start + data.len()).ok_or("larger than the flash")?;
+        place.copy_from_slice(&data);
+    }
+    let (order, size) = elf::symbol(image, "ORDER")?;
+    let start = (order - FLASH) as usize;
+    let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
+    flash[start..start + text.len()].copy_from_slice(text.as_bytes());
+    let (result, _) = elf::symbol(image, "TRACED")?;
+
+    let mut chip = Emulator::new(Config::default());
+    chip.load_bootrom(&rom);
+    chip.load_flash(&flash);
+    chip.reset();
+    chip.direct_boot_from_flash(0x100);
+    let mut wait = |level: bool| {
+        for _ in 0..PATIENCE {
+            chip.step().map_err(|error| error.to_string())?;
+            if chip.gpio_read(MARK) == level {
+                return Ok([0, 1].map(|core| chip.core_cycles(core)));
+            }
+        }
+        Err(format!("{job}: no frame"))
+    };
+    let start = wait(true)?;
+    let end = wait(false)?;
+    let cycles = [end[0] - start[0], end[1] - start[1]];
+    Ok(Frame { cycles, sum: chip.peek(result as u32) })
+}
