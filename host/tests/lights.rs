@@ -1,5 +1,7 @@
 //! Area lights from files: what they cost, and that they are what the library makes of them.
 
+use std::num::NonZeroUsize;
+
 use whitted_host::bake::{Baked, Construct};
 use whitted_host::document::{Document, Size};
 use whitted_host::picture::Picture;
@@ -97,7 +99,13 @@ fn document(light: &str) -> Document {
 }
 
 fn picture<A: Construct>(document: &Document, size: Size, sampling: Sampling) -> Rendered {
-    let settings = Settings { size, depth: document.rules.depth, sampling, show: None };
+    let settings = Settings {
+        size,
+        depth: document.rules.depth,
+        sampling,
+        show: None,
+        threads: NonZeroUsize::MIN,
+    };
     render(&Baked::<A>::new(document).unwrap(), &settings, |_| {}).unwrap()
 }
 
