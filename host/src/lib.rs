@@ -17,5 +17,6 @@ pub mod read;
 pub mod render;
 pub mod show;
 pub mod stats;
+pub mod terms;
 pub mod toml;
 pub mod tree;

@@ -9,7 +9,7 @@ pub use whitted::frame::Sampling;
 use whitted::frame::{Renderer, Sample};
 use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;
-use whitted::trace::{Tracer, Work};
+use whitted::trace::{Terms, Tracer, Work};
 
 use crate::bake::{Baked, Construct};
 use crate::document::{Rules, Size};
@@ -36,12 +36,13 @@ pub struct Settings {
 }
 
 impl Settings {
-    fn for_core(&self) -> whitted::frame::Settings {
+    fn for_core(&self, terms: Terms) -> whitted::frame::Settings {
         // Larger sizes become one that the core refuses.
         let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
         whitted::frame::Settings {
             depth: self.depth,
             sampling: self.sampling,
+            terms,
             ..whitted::frame::Settings::new(side(self.size.width), side(self.size.height))
         }
     }
@@ -70,7 +71,7 @@ pub fn render<A: Construct>(
     let start = Instant::now();
     let scene = baked.scene()?;
     let camera = baked.camera(settings.size)?;
-    let core = settings.for_core();
+    let core = settings.for_core(baked.document().rules.terms);
     let mut picture = Picture::new(settings.size);
     let counts = if let Some(show) = settings.show {
         with_renderer(&scene, &camera, core, |renderer| {

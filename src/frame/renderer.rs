@@ -7,7 +7,7 @@ use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
-use crate::trace::{Tracer, Work};
+use crate::trace::{Terms, Tracer, Work};
 use core::ops::Range;
 
 /// The larger side of a picture at most.
@@ -76,7 +76,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         samples: &'a mut [Sample<A>],
         tally: T,
     ) -> Result<Self, FrameError> {
-        let Settings { width, height, depth, sampling } = settings;
+        let Settings { width, height, depth, sampling, terms } = settings;
         if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
             return Err(FrameError::Size);
         }
@@ -85,7 +85,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return Err(FrameError::Depth { depth, max });
         }
         sampling.check()?;
-        if !has(USES, sampling.uses()) {
+        if !has(USES, sampling.uses()) || (terms != Terms::ALL && !has(USES, uses::TERMS)) {
             return Err(FrameError::Tailored);
         }
         let needed = sampling.samples(width);
@@ -93,7 +93,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return Err(FrameError::Samples { needed });
         }
         Ok(Self {
-            tracer: Tracer::new(scene, depth),
+            tracer: Tracer::new(scene, depth).with_terms(terms),
             view: View::new(camera, width, height),
             settings,
             work,

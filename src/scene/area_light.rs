@@ -121,6 +121,8 @@ pub struct AreaLight<A: Arithmetic> {
     /// diameter.
     pub(crate) demand: A::Intensity,
     pub(crate) most_demand: A::Radiance,
+    /// The intensity over the square of half the diameter.
+    pub(crate) most: A::Radiance,
     pub(crate) samples: [u16; 2],
     /// How much longer a cell would be one way than the other, were the grid a square; Q8.
     pub(crate) aspect: u16,
@@ -379,6 +381,9 @@ for_each_arithmetic! {
                 demand: some_or!(make::intensity(demand), Coefficient),
                 most_demand: some_or!(
                     clipped(demand / (measure.half * measure.half)), Coefficient
+                ),
+                most: some_or!(
+                    clipped(intensity / (measure.half * measure.half)), Coefficient
                 ),
                 samples: spec.samples,
                 aspect: if aspect < 16.0 { 16 } else { aspect as u16 },

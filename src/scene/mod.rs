@@ -33,6 +33,7 @@ mod group;
 mod instance;
 mod light;
 mod material;
+mod selection;
 mod shapes;
 mod transform;
 pub mod uses;
@@ -45,6 +46,7 @@ pub use group::Group;
 pub use instance::Instance;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
+pub use selection::Selection;
 pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
 pub use transform::Transform;
@@ -141,6 +143,8 @@ pub struct Parts<'a, A: Arithmetic> {
     /// Where in its part of an area light a shadow ray goes: through the middle, or at random,
     /// given a seed. The same seed gives the same picture on every machine.
     pub light_jitter: Option<u16>,
+    /// Which lights a point asks.
+    pub selection: Selection<A>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
     /// What rays see that hit nothing.
@@ -169,6 +173,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         area_lights: &[],
         light_corners: &[],
         light_jitter: None,
+        selection: Selection::All,
         ambient: Ambient([A::BLACK; 3]),
         background: Background::BLACK,
         rules: Rules::COURSE,

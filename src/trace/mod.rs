@@ -6,9 +6,12 @@ mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod select;
+mod terms;
 mod visible;
 mod work;
 
 pub use nearest::Hit;
 pub use radiance::Tracer;
+pub use terms::{Paths, Terms};
 pub use work::Work;

@@ -7,6 +7,7 @@
 use super::direct::{Shading, direct};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
+use super::terms::Terms;
 use super::work::{Scratch, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
@@ -46,13 +47,14 @@ pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(super) scene: &'a Scene<'a, A, USES>,
     depth: u8,
     key: u32,
+    terms: Terms,
 }
 
 impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth, key: 0 }
+        Self { scene, depth, key: 0, terms: Terms::ALL }
     }
 
     /// The same for a camera's ray of this [`Row::key`](crate::scene::Row::key): where what is
@@ -61,6 +63,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     #[must_use]
     pub fn with_key(self, key: u32) -> Self {
         Self { key, ..self }
+    }
+
+    /// The same, adding up these terms alone; all, if the scene is tailored without
+    /// [`uses::TERMS`].
+    #[inline(always)]
+    #[must_use]
+    pub fn with_terms(self, terms: Terms) -> Self {
+        Self { terms, ..self }
     }
 
     #[inline(always)]
@@ -98,6 +108,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             }
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
             let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
+                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => false,
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
@@ -155,6 +166,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let surface = place.surface;
         let Some(material) = scene.material_at(place.material, &place.local) else {
             return (false, None);
+        };
+
+        let some;
+        let material = if has(USES, uses::TERMS) && self.terms != Terms::ALL {
+            some = self.terms.of(material);
+            &some
+        } else {
+            material
         };
 
         if has(USES, uses::EMISSION)

@@ -7,7 +7,7 @@ use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
     Ambient, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Light, LightSpec, Material,
-    MaterialSpec, Parts, Scene, SceneError,
+    MaterialSpec, Parts, Scene, SceneError, Selection,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
@@ -146,6 +146,9 @@ construct! {
     /// See [`AreaLight`].
     fn new_area_light(spec: &AreaLightSpec<'_>) -> Made<AreaLight<Self>>
         = |A| AreaLight::<A>::try_new(spec);
+    /// See [`Selection`].
+    fn new_threshold(radiance: f64) -> Made<Selection<Self>>
+        = |A| Selection::<A>::try_above(radiance);
     /// See [`AreaLight::fan`].
     fn new_fan_corner(corners: &[Point], i: usize) -> Made<FanCorner<Self>>
         = |A| AreaLight::<A>::try_fan(corners, i);

@@ -11,11 +11,12 @@ pub use place::Placement;
 use shapes::Shapes;
 
 use whitted::scene::{
-    Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow,
+    Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules, Scene,
+    Selection, Shadow,
 };
 use whitted::shape::ShapeError;
 
-use crate::document::{self, Document, ShadowThrough, Size};
+use crate::document::{self, Document, LightSelection, ShadowThrough, Size};
 use crate::error::{Flaw, Problem};
 
 /// A scene in an arithmetic, owned.
@@ -71,6 +72,12 @@ impl<A: Construct> Baked<A> {
             area_lights: &self.lights.areas,
             light_corners: &self.lights.corners,
             light_jitter: rules.light_jitter,
+            selection: match rules.lights {
+                LightSelection::All => Selection::All,
+                LightSelection::Choose(count) => Selection::Choose(count),
+                LightSelection::Threshold(radiance) => A::new_threshold(radiance)
+                    .map_err(|e| refused::<A>("the threshold of the lights", e, None))?,
+            },
             ambient: self.ambient,
             background: self.background,
             rules: Rules {

@@ -23,7 +23,7 @@ pub use camera::{Camera, Span};
 pub use light::{Area, Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
-pub use rules::Rules;
+pub use rules::{LightSelection, Rules};
 pub use shape::{Body, Shape};
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};

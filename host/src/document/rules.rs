@@ -1,6 +1,7 @@
 //! What the classic programs differ in; a scene says which it means.
 
 use super::Falloff;
+use whitted::trace::Terms;
 
 /// The switches of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +22,21 @@ pub struct Rules {
     pub depth: u8,
     /// The seed by which shadow rays to area lights are moved at random, if they are.
     pub light_jitter: Option<u16>,
+    /// Which lights a point asks.
+    pub lights: LightSelection,
+    /// Which terms of radiance a picture shows.
+    pub terms: Terms,
+}
+
+/// Which lights a point asks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightSelection {
+    /// All.
+    All,
+    /// Those that would add this much to a channel of the pixel, were nothing in their way.
+    Threshold(f64),
+    /// So many, chosen at random by what they would add.
+    Choose(u8),
 }
 
 impl Rules {
@@ -37,6 +53,8 @@ impl Rules {
         cutoff: 1.0 / 255.0,
         depth: 5,
         light_jitter: Some(0),
+        lights: LightSelection::All,
+        terms: Terms::ALL,
     };
 
     /// What a file in Neutral File Format means.
@@ -49,5 +67,7 @@ impl Rules {
         cutoff: 0.0,
         depth: 5,
         light_jitter: Some(0),
+        lights: LightSelection::All,
+        terms: Terms::ALL,
     };
 }

@@ -1,7 +1,7 @@
 //! Lights: intensities and distances with exponents of their own.
 
 use super::kernel::wide_shr;
-use super::{BRIGHTEST, FixedIntensity, FixedInverse, Unit};
+use super::{BRIGHTEST, FixedIntensity, FixedInverse, Unit, Weight};
 use crate::math::root;
 use ::fixed::types::I16F16;
 
@@ -30,4 +30,12 @@ pub(super) fn share(a: I16F16, inverse: &FixedInverse) -> Unit {
     let p = (m_q32 >> 16).wrapping_mul(inverse.mantissa_q15);
     let q17 = wide_shr(p, z as i32 - 2 - inverse.exponent, 1 << 17) as i32;
     Unit::from_bits(if a.to_bits() < 0 { -q17 } else { q17 })
+}
+
+/// See `Arithmetic::relative`. Seldom asked, so it may divide.
+pub(super) fn relative(a: I16F16, b: I16F16) -> Weight {
+    const MOST: u64 = 261_980;
+    let (a, b) = (u64::from(a.to_bits() as u32), u64::from(b.to_bits() as u32));
+    let ratio = (a << 14).checked_div(b).unwrap_or(0);
+    Weight::from_bits((if ratio < MOST { ratio } else { MOST }) as i32)
 }
