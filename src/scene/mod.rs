@@ -54,6 +54,7 @@ pub use transform::Transform;
 pub(crate) use area_light::Form;
 pub(crate) use light::Incident;
 
+use crate::gather::Indirect;
 use crate::math::{Arithmetic, Rgb};
 use crate::octree::Octree;
 use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, PolygonEdge};
@@ -147,6 +148,8 @@ pub struct Parts<'a, A: Arithmetic> {
     pub selection: Selection<A>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
+    /// What surfaces send each other, instead of the ambient term.
+    pub indirect: Indirect<'a, A>,
     /// What rays see that hit nothing.
     pub background: Background<A>,
     /// Where the classic programs differ.
@@ -175,6 +178,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         light_jitter: None,
         selection: Selection::All,
         ambient: Ambient([A::BLACK; 3]),
+        indirect: Indirect::None,
         background: Background::BLACK,
         rules: Rules::COURSE,
     };
@@ -334,17 +338,42 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
         }
     }
 
+    /// The same scene with other light between its surfaces: irradiance records or virtual lights
+    /// that were made after it.
+    ///
+    /// # Errors
+    /// The scene is tailored to have none.
+    pub const fn with_indirect<'b>(
+        &self,
+        indirect: Indirect<'b, A>,
+    ) -> Result<Scene<'b, A, USES>, SceneError>
+    where
+        'a: 'b,
+    {
+        let missing = indirect.uses() & !USES;
+        if missing != 0 {
+            return Err(SceneError::Uses { missing });
+        }
+        Ok(self.lit_by(indirect))
+    }
+
+    /// Whether a shape shows an area light.
+    pub(crate) fn is_light(&self, shape: u32) -> bool {
+        self.parts.area_lights.iter().any(|light| light.body() == Some(shape))
+    }
+
+    pub(crate) const fn lit_by<'b>(&self, indirect: Indirect<'b, A>) -> Scene<'b, A, USES>
+    where
+        'a: 'b,
+    {
+        let mut scene: Scene<'b, A, USES> = *self;
+        scene.parts.indirect = indirect;
+        scene
+    }
+
     /// What the scene was put together from.
     pub const fn parts(&self) -> &Parts<'a, A> {
         &self.parts
-    }
-
-    /// Whether a shape is the body of an area light: its emission is counted by direct sampling, so
-    /// rays that gather irradiance leave it out.
-    #[inline(always)]
-    pub fn lists(&self, shape: u32) -> bool {
-        has(USES, uses::AREA_LIGHTS)
-            && self.parts.area_lights.iter().any(|light| light.body == shape)
     }
 
     /// The material at a point of a shape, the checker resolved.

@@ -22,6 +22,7 @@ pub(super) struct Point<'s, A: Arithmetic> {
     pub(super) shadow: Ray<A>,
     pub(super) weight: Rgb<A::Weight>,
     pub(super) depth: u8,
+    pub(super) highlights: bool,
     pub(super) key: u32,
 }
 
@@ -35,6 +36,7 @@ impl<'s, A: Arithmetic> Point<'s, A> {
             shadow: at.shadow,
             weight: *at.weight,
             depth: at.depth,
+            highlights: at.highlights,
             key: at.key,
         }
     }
@@ -104,6 +106,7 @@ pub(super) fn area<A: Arithmetic, T: Tally, const USES: u64>(
 
     let shines = has(USES, uses::HIGHLIGHTS)
         && at.material.shines
+        && at.highlights
         // A mirror shows the light itself.
         && !(light.body().is_some() && at.material.mirrors);
     let mut shadowed = true;

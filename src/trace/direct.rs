@@ -21,6 +21,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     /// The product of the coefficients down the tree.
     pub(super) weight: &'s Rgb<A::Weight>,
     pub(super) depth: u8,
+    /// Phong's highlight counts: not where irradiance is gathered.
+    pub(super) highlights: bool,
     /// Where random numbers come from: another one for each point that is shaded.
     pub(super) key: u32,
 }
@@ -58,7 +60,13 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
             tally.shadowed(number, at.depth);
             continue;
         };
-        let factor = factor::<A, USES>(rules, at.material, at.mirror, cosine, &direction);
+        let factor = factor::<A, USES>(
+            rules,
+            at.material,
+            at.highlights.then_some(at.mirror),
+            cosine,
+            &direction,
+        );
         let factor = rgb(&factor, &light.color, A::weight);
         let factor = rgb(&factor, at.weight, A::weight);
         let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
@@ -73,18 +81,21 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
 }
 
 /// The part of the irradiance from a direction (over π) that goes back along the ray: Lambert's
-/// term and Phong's highlight. `cosine` is the one between normal and direction, positive.
+/// term and, given the mirror direction of the ray, Phong's highlight. `cosine` is the one between normal and direction, positive.
 #[inline(always)]
 pub(super) fn factor<A: Arithmetic, const USES: u64>(
     rules: &Rules<A>,
     material: &Material<A>,
-    mirror: &[A::Unit; 3],
+    mirror: Option<&[A::Unit; 3]>,
     cosine: A::Weight,
     direction: &[A::Unit; 3],
 ) -> Rgb<A::Weight> {
     let diffuse = material.diffuse;
     let factor = diffuse.map(|k| A::weight(k, cosine));
-    if has(USES, uses::HIGHLIGHTS) && material.shines {
+    if has(USES, uses::HIGHLIGHTS)
+        && material.shines
+        && let Some(mirror) = mirror
+    {
         // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
         let lobe = A::cosine(mirror, direction);
         if lobe > A::NO_WEIGHT {

@@ -2,11 +2,13 @@
 
 mod area;
 mod direct;
+mod indirect;
 mod meet;
 mod nearest;
 mod probe;
 mod radiance;
 mod select;
+mod site;
 mod terms;
 mod visible;
 mod work;

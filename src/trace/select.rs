@@ -135,7 +135,13 @@ fn unshadowed<A: Arithmetic, const USES: u64>(
         return None;
     }
     let rules = &scene.parts.rules;
-    let factor = factor::<A, USES>(rules, at.material, &at.mirror, cosine, &incident.direction);
+    let factor = factor::<A, USES>(
+        rules,
+        at.material,
+        at.highlights.then_some(&at.mirror),
+        cosine,
+        &incident.direction,
+    );
     let factor = rgb(&factor, &light.color, A::weight);
     let factor = rgb(&factor, &at.weight, A::weight);
     let radiance = factor.map(|f| A::dim(incident.irradiance, f));
