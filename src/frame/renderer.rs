@@ -166,19 +166,26 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
+        self.begin(row, x, fraction);
+        self.radiance(&ray)
+    }
+
+    /// Prepares for a ray.
+    #[inline(always)]
+    fn begin(&mut self, row: &Row<A>, x: u16, fraction: u8) {
         if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
         }
-        self.radiance(&ray)
+        if has(USES, uses::TREE) {
+            self.work.begin_row(row.number());
+        }
     }
 
     /// The same as a sample.
     #[inline(always)]
     pub(super) fn sample(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Sample<A> {
         let ray = self.view.ray(row, x, fraction);
-        if uses::has_random(USES) {
-            self.tracer.set_key(row.key(x, fraction));
-        }
+        self.begin(row, x, fraction);
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)

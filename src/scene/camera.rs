@@ -122,6 +122,12 @@ pub struct Row<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Row<A> {
+    /// The pixels' row that it is in.
+    #[inline(always)]
+    pub(crate) fn number(&self) -> u32 {
+        self.place >> 8
+    }
+
     /// Another number for each place in the picture: where what is random about a ray comes from.
     #[inline(always)]
     pub fn key(&self, x: u16, fraction: u8) -> u32 {

@@ -134,7 +134,9 @@ pub(super) fn area<A: Arithmetic, T: Tally, const USES: u64>(
             ray.direction = direction;
             let limit = seen.end(light, &direction, distance);
             tally.ray(RayKind::Shadow, at.depth, &ray, &at.weight);
-            let Some(share) = visible_beside(scene, &ray, limit, light.body, scratch, tally) else {
+            let Some(share) =
+                visible_beside(scene, &ray, limit, number, light.body, scratch, tally)
+            else {
                 continue;
             };
             shadowed = false;

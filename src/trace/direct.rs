@@ -56,7 +56,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         }
         at.shadow.direction = direction;
         tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {
+        let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
             tally.shadowed(number, at.depth);
             continue;
         };
