@@ -173,6 +173,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
+        if uses::has_random(USES) {
+            self.tracer.set_key(row.key(x, fraction));
+        }
         self.radiance(&ray)
     }
 
@@ -180,7 +183,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// of the pixel at (x, y).
     #[inline(never)]
     pub(super) fn sample(&mut self, x: u16, right: u8, y: u16, down: u8) -> Sample<A> {
-        let ray = self.view.ray(&self.view.row(y, down), x, right);
+        let row = self.view.row(y, down);
+        let ray = self.view.ray(&row, x, right);
+        if uses::has_random(USES) {
+            self.tracer.set_key(row.key(x, right));
+        }
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)
