@@ -129,8 +129,7 @@ impl<T: Tally> Tally for Watch<'_, T> {
     #[inline(always)]
     fn shadowed(&mut self, light: u16, depth: u8) {
         if depth == 1 {
-            // Another pattern in seven bits for each of seven lights.
-            self.signature ^= (0x1au8 << (light & 7)) ^ (0x35 >> (light & 7));
+            self.signature ^= (light as u8).wrapping_add(1).wrapping_mul(0x2b);
         }
         self.tally.shadowed(light, depth);
     }
@@ -184,7 +183,7 @@ mod tests {
             watch.signature & !MARK
         };
         assert!((1..128).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
-        assert!((0..8).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
+        assert!((0..127).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
         assert!(signature(3, &[0, 1], false) != signature(3, &[0], false));
         assert_eq!(signature(3, &[1], true), signature(3, &[1], false));
     }

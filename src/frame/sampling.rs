@@ -55,7 +55,7 @@ impl Sampling {
     /// Adaptive sampling as it serves most scenes.
     pub const ADAPTIVE: Self = Self::Adaptive { depth: 3, threshold: 14 };
     /// Sparse sampling as it serves most scenes.
-    pub const SPARSE: Self = Self::Sparse { side: 4, threshold: 16 };
+    pub const SPARSE: Self = Self::Sparse { side: 4, threshold: 19 };
 
     /// How many samples the renderer must remember for pictures of this width.
     pub const fn samples(self, width: u16) -> usize {
