@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use whitted::frame::{Output, Passes, Progress, Rgb888};
+use whitted::scene::{Camera, Scene};
 
 use super::{Rendered, Settings, with_renderer};
 use crate::bake::{Baked, Construct};
@@ -30,13 +31,22 @@ pub fn render_until<A: Construct>(
     side: u8,
     rays: u64,
 ) -> Result<Shown, Flaw> {
-    let start = Instant::now();
-    let scene = baked.scene()?;
     let camera = baked.camera(settings.size)?;
-    let mut passes =
+    let passes =
         Passes::new(side).map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
+    baked.with_scene(|scene| draw(scene, &camera, settings, passes, rays))?
+}
+
+fn draw<A: Construct>(
+    scene: &Scene<'_, A>,
+    camera: &Camera<A>,
+    settings: &Settings,
+    mut passes: Passes,
+    rays: u64,
+) -> Result<Shown, Flaw> {
+    let start = Instant::now();
     let mut picture = Picture::new(settings.size);
-    let (progress, counts) = with_renderer(&scene, &camera, settings.for_core(), |renderer| {
+    let (progress, counts) = with_renderer(scene, camera, settings.for_core(), |renderer| {
         let progress = renderer.refine(
             &mut passes,
             |counts| counts.rays() >= rays,
