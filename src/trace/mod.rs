@@ -13,6 +13,7 @@ mod terms;
 mod visible;
 mod work;
 
+pub(crate) use area::point_of_light;
 pub use nearest::Hit;
 pub use radiance::Tracer;
 pub use terms::{Paths, Terms};

@@ -19,6 +19,9 @@ pub(super) const NO_SHAPE: u32 = u32::MAX;
 /// So many lights have what last stood in their way remembered; others share.
 const LIGHTS: usize = 8;
 
+/// The number of lights that have none: they share the last place.
+pub(super) const NO_LIGHT: u16 = u16::MAX;
+
 /// What searches along rays write.
 #[derive(Clone, Debug)]
 pub(super) struct Scratch<A: Arithmetic> {

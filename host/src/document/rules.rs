@@ -1,5 +1,7 @@
 //! What the classic programs differ in; a scene says which it means.
 
+use whitted::frame::Sampling;
+
 use super::Falloff;
 use whitted::trace::Terms;
 
@@ -26,6 +28,8 @@ pub struct Rules {
     pub lights: LightSelection,
     /// Which terms of radiance a picture shows.
     pub terms: Terms,
+    /// Where in a pixel rays go, unless the command says.
+    pub sampling: Sampling,
 }
 
 /// Which lights a point asks.
@@ -55,6 +59,7 @@ impl Rules {
         light_jitter: Some(0),
         lights: LightSelection::All,
         terms: Terms::ALL,
+        sampling: Sampling::Center,
     };
 
     /// What a file in Neutral File Format means.
@@ -69,5 +74,6 @@ impl Rules {
         light_jitter: Some(0),
         lights: LightSelection::All,
         terms: Terms::ALL,
+        sampling: Sampling::Center,
     };
 }

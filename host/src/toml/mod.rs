@@ -18,6 +18,8 @@ use crate::document::{
 };
 use crate::error::{Flaw, Problem};
 use crate::read::Around;
+use crate::render::Sampling;
+use crate::sampling;
 use crate::terms;
 use group::Groups;
 use material::Names;
@@ -226,6 +228,7 @@ fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
             let seed = table.get("seed").map_or(Ok(0), |v| v.count("seed", 0, 65535))?;
             table.flag("light_jitter", true)?.then_some(seed as u16)
         },
+        sampling: table.get("sampling").map_or(Ok(like.sampling), |v| sampling_of(&v))?,
     };
     table.done()?;
     Ok((size, rules))
@@ -254,6 +257,11 @@ fn selection_of(value: &Value<'_>) -> Result<LightSelection, Flaw> {
         (None, Some(count)) => Ok(LightSelection::Choose(count as u8)),
         _ => Err(table.missing("either \"threshold\" or \"choose\"")),
     }
+}
+
+fn sampling_of(value: &Value<'_>) -> Result<Sampling, Flaw> {
+    let text = value.text("sampling")?;
+    sampling::parse(text).map_err(|why| Problem::Syntax(format!("sampling: {why}")).at(value.line))
 }
 
 fn size_of(value: Value<'_>) -> Result<Size, Flaw> {
