@@ -67,6 +67,14 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// [`MaterialSpec::texture`](super::MaterialSpec::texture).
+pub const TEXTURES: u64 = 1 << 40;
+/// [`MaterialSpec::bump`](super::MaterialSpec::bump).
+pub const BUMPS: u64 = 1 << 41;
+/// [`MaterialSpec::fresnel`](super::MaterialSpec::fresnel).
+pub const FRESNEL: u64 = 1 << 42;
+/// [`MaterialSpec::absorption`](super::MaterialSpec::absorption).
+pub const ABSORPTION: u64 = 1 << 43;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -129,6 +137,10 @@ impl<A: Arithmetic> Parts<'_, A> {
         while i < self.materials.len() {
             let material = &self.materials[i];
             uses |= bit(material.pattern.is_some(), PATTERNS)
+                | bit(material.texture().is_some(), TEXTURES)
+                | bit(material.bump().is_some(), BUMPS)
+                | bit(material.fresnel, FRESNEL)
+                | bit(material.absorption().is_some(), ABSORPTION)
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)

@@ -19,6 +19,8 @@ pub enum ShapeError {
     Coefficient,
     /// The material's index is 32768 or more.
     Material,
+    /// An image's size, palette and bytes don't fit together.
+    Image,
 }
 
 impl ShapeError {
@@ -32,6 +34,7 @@ impl ShapeError {
             Self::Polygon => "a polygon must be convex, plane, and of 3 to 255 corners",
             Self::Coefficient => "a coefficient is negative, not a number, or out of range",
             Self::Material => "a material's index is 32768 or more",
+            Self::Image => "an image's size, palette and bytes don't fit together",
         }
     }
 }
