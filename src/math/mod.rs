@@ -23,16 +23,17 @@ mod log;
 mod root;
 mod vector;
 
+pub(crate) use constant::sin_cos_degrees;
 pub use constant::tan_degrees;
 pub(crate) use constant::{
     cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
 };
-pub use fixed::{
-    Fixed, FixedBarycentric, FixedCoarse, FixedDecay, FixedEta, FixedExponent, FixedIntensity,
-};
-pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedSpot};
-pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatSpot};
-pub(crate) use hash::hash;
+pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
+pub use fixed::{FixedDecay, FixedSpot};
+pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedRotation, FixedScale};
+pub use float::FloatSpot;
+pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatScale};
+pub(crate) use hash::{hash, spread};
 pub use root::sqrt_f32;
 pub(crate) use root::{normalize as normalize_u32, sqrt_u32};
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
@@ -125,6 +126,10 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     type Aim: Number;
     /// A ray parameter within the octree, in units of the tree's side.
     type Span: Number;
+    /// A rotation of space.
+    type Rotation: Copy + Debug + Send + Sync;
+    /// A factor that lengths are multiplied by, and its reciprocal.
+    type Scale: Copy + Debug + Send + Sync;
 
     /// What the `--arith` option and baked files call this arithmetic.
     const NAME: &'static str;
@@ -215,6 +220,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn leg(r: &Self::Radius, leg2: Self::Leg2) -> Self::Length;
     /// The square of a length whose absolute value is no larger than 2·`r`.
     fn square(r: &Self::Radius, a: Self::Length) -> Self::Leg2;
+    /// `a` over the length whose reciprocal is given, for |a| no larger than that length.
+    fn share(a: Self::Length, inverse: &Self::Inverse) -> Self::Unit;
     /// `v/r`, for |v| ≤ r: the normal of a sphere.
     fn over(r: &Self::Radius, v: &[Self::Length; 3]) -> [Self::Unit; 3];
     /// `a/r`, for |a| ≤ r.
@@ -282,6 +289,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn weight(a: Self::Weight, b: Self::Weight) -> Self::Weight;
     /// `a/b`, for a light's cone: 0 ≤ a ≤ b.
     fn quotient(a: Self::Weight, b: Self::Weight) -> Self::Weight;
+    /// `x`/65536 for |x| ≤ 65536, exactly.
+    fn fraction(x: i32) -> Self::Unit;
     /// A component of a unit vector as a coefficient.
     fn weight_of(u: Self::Unit) -> Self::Weight;
     /// `cos^n` for a cosine in 0 to 1.
@@ -333,6 +342,19 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn spans(o: Self::Length, d: Self::Unit, log2_side: i8) -> (Self::Span, Self::Span);
     /// A distance in the tree's unit, rounded up so that an end is never early.
     fn span(t: Self::Length, log2_side: i8) -> Self::Span;
+    /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
+    fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
+    /// `Rᵀ·v`, the way back.
+    fn rotate_back(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
+    /// `R·d` of a unit vector; in fixed point within a step.
+    fn turn(r: &Self::Rotation, d: &[Self::Unit; 3]) -> [Self::Unit; 3];
+    /// `Rᵀ·d`, the way back.
+    fn turn_back(r: &Self::Rotation, d: &[Self::Unit; 3]) -> [Self::Unit; 3];
+    /// `s·a`, rounded to nearest; in fixed point clipped to ±2048.
+    fn magnify(s: &Self::Scale, a: Self::Length) -> Self::Length;
+    /// `a/s`, likewise.
+    fn reduce(s: &Self::Scale, a: Self::Length) -> Self::Length;
+
     /// Half of a span.
     fn half(s: Self::Span) -> Self::Span;
     /// The side of a tree, 2^`log2_side`.

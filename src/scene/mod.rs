@@ -26,19 +26,26 @@
 //! ```
 
 mod absorption;
+mod area_light;
 mod background;
 mod camera;
 mod error;
+mod group;
+mod instance;
 mod light;
 mod material;
 mod shapes;
 mod texture;
+mod transform;
 pub mod uses;
 
 pub use absorption::Absorption;
+pub use area_light::{Area, AreaLight, AreaLightSpec, FanCorner};
 pub use background::Background;
 pub use camera::{Camera, Row, View};
 pub use error::SceneError;
+pub use group::Group;
+pub use instance::Instance;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
 pub use shapes::Shapes;
@@ -46,7 +53,9 @@ pub(crate) use shapes::with_shape;
 pub use texture::{
     Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec, TriangleUv, Wrap,
 };
+pub use transform::Transform;
 
+pub(crate) use area_light::Form;
 pub(crate) use light::Incident;
 
 use crate::math::{Arithmetic, Rgb};
@@ -97,7 +106,8 @@ impl<A: Arithmetic> Rules<A> {
 }
 
 /// What a scene is put together from. Shapes are numbered through in the order of the fields,
-/// planes last; where two are hit at the same distance, the lower number counts.
+/// those of each instance after each other, planes last; where two are hit at the same distance,
+/// the lower number counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts<'a, A: Arithmetic> {
     /// Spheres.
@@ -110,6 +120,9 @@ pub struct Parts<'a, A: Arithmetic> {
     pub polygons: &'a [Polygon<A>],
     /// The edges of all polygons.
     pub edges: &'a [PolygonEdge<A>],
+    /// Texture coordinates of the triangles, then of the smooth triangles, in their order; none for
+    /// those beyond its end.
+    pub uvs: &'a [TriangleUv],
     /// Boxes along the axes.
     pub cuboids: &'a [Cuboid<A>],
     /// Discs.
@@ -118,22 +131,29 @@ pub struct Parts<'a, A: Arithmetic> {
     pub cylinders: &'a [Cylinder<A>],
     /// Open cones.
     pub cones: &'a [Cone<A>],
+    /// Groups of shapes, placed. They lie outside the octree, each in a bounding sphere: a short
+    /// list.
+    pub instances: &'a [Instance<'a, A>],
     /// Infinite planes; they lie outside the octree.
     pub planes: &'a [Plane<A>],
-    /// The octree over all shapes but planes. Without one every ray tests every shape, which is
+    /// The octree over all shapes but instances and planes. Without one every ray tests every shape, which is
     /// quicker for fewer than ten.
     pub tree: Option<Octree<'a, A>>,
     /// Materials, by the index that shapes give.
     pub materials: &'a [Material<A>],
     /// What materials' surfaces are coloured and bent by.
     pub textures: &'a [Texture<'a, A>],
-    /// Texture coordinates of the triangles, then of the smooth triangles, in their order; as many as
-    /// there are textures for.
-    pub uvs: &'a [TriangleUv],
     /// What absorbs light before and behind surfaces.
     pub absorptions: &'a [Absorption<A>],
     /// Lights.
     pub lights: &'a [Light<A>],
+    /// Lights with an area, numbered after the others.
+    pub area_lights: &'a [AreaLight<A>],
+    /// The fans of all area lights that are polygons.
+    pub light_corners: &'a [FanCorner<A>],
+    /// Where in its part of an area light a shadow ray goes: through the middle, or at random,
+    /// given a seed. The same seed gives the same picture on every machine.
+    pub light_jitter: Option<u16>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
     /// What rays see that hit nothing.
@@ -154,6 +174,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         discs: &[],
         cylinders: &[],
         cones: &[],
+        instances: &[],
         planes: &[],
         tree: None,
         materials: &[],
@@ -161,6 +182,9 @@ impl<A: Arithmetic> Parts<'_, A> {
         uvs: &[],
         absorptions: &[],
         lights: &[],
+        area_lights: &[],
+        light_corners: &[],
+        light_jitter: None,
         ambient: Ambient([A::BLACK; 3]),
         background: Background::BLACK,
         rules: Rules::COURSE,
@@ -177,8 +201,10 @@ pub struct Scene<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(crate) shapes: Shapes<'a, A>,
     /// All materials stop shadow rays, so that a shadow ray may end at the first hit.
     pub(crate) opaque_shadows: bool,
-    /// The number of bounded shapes, and of the first plane.
+    /// The number of bounded shapes, and of the first instance's first shape.
     pub(crate) bounded: u32,
+    /// The number of the first plane.
+    pub(crate) first_plane: u32,
 }
 
 impl<'a, A: Arithmetic> Scene<'a, A> {
@@ -244,11 +270,80 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
             }
             i += 1;
         }
+        let mut i = 0;
+        while i < parts.area_lights.len() {
+            let (first, count) = parts.area_lights[i].fan_range();
+            if first as u64 + count as u64 > parts.light_corners.len() as u64 {
+                return Err(SceneError::Fan { light: i as u32 });
+            }
+            i += 1;
+        }
+        let bounded = shapes.bounded();
+        let first_plane = match Self::number(&parts, parts.instances) {
+            Ok(number) => number,
+            Err(error) => return Err(error),
+        };
         let missing = parts.uses() & !USES;
         if missing != 0 {
             return Err(SceneError::Uses { missing });
         }
-        Ok(Self { parts, shapes, opaque_shadows, bounded: shapes.bounded() })
+        Ok(Self { parts, shapes, opaque_shadows, bounded, first_plane })
+    }
+
+    /// The same scene with other instances: for objects that move. Nothing else is looked at.
+    ///
+    /// # Errors
+    /// A material that isn't there; what isn't in `USES`.
+    pub const fn with_instances<'b>(
+        &self,
+        instances: &'b [Instance<'b, A>],
+    ) -> Result<Scene<'b, A, USES>, SceneError>
+    where
+        'a: 'b,
+    {
+        let first_plane = match Self::number(&self.parts, instances) {
+            Ok(number) => number,
+            Err(error) => return Err(error),
+        };
+        let missing = uses::of_instances(instances) & !USES;
+        if missing != 0 {
+            return Err(SceneError::Uses { missing });
+        }
+        Ok(Scene {
+            parts: Parts { instances, ..self.parts },
+            shapes: self.shapes,
+            opaque_shadows: self.opaque_shadows,
+            bounded: self.bounded,
+            first_plane,
+        })
+    }
+
+    /// The number of the first plane; the materials of the instances must be there.
+    const fn number(
+        parts: &Parts<'_, A>,
+        instances: &[Instance<'_, A>],
+    ) -> Result<u32, SceneError> {
+        let mut number = parts.bounded();
+        let mut i = 0;
+        while i < instances.len() {
+            let instance = &instances[i];
+            let group = instance.group();
+            if group.materials as usize > parts.materials.len() {
+                return Err(SceneError::Material { index: group.materials - 1 });
+            }
+            if let Some(id) = instance.material()
+                && id.index() >= parts.materials.len()
+            {
+                return Err(SceneError::Material { index: id.index() as u16 });
+            }
+            number = match number.checked_add(group.count) {
+                Some(number) => number,
+                None => return Err(SceneError::Numbers),
+            };
+            i += 1;
+        }
+        // The highest numbers stand for no shape.
+        if number > u32::MAX / 2 { Err(SceneError::Numbers) } else { Ok(number) }
     }
 
     /// The same for scenes in `static`s: a mistake doesn't compile.
@@ -265,6 +360,14 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
     /// What the scene was put together from.
     pub const fn parts(&self) -> &Parts<'a, A> {
         &self.parts
+    }
+
+    /// Whether a shape is the body of an area light: its emission is counted by direct sampling, so
+    /// rays that gather irradiance leave it out.
+    #[inline(always)]
+    pub fn lists(&self, shape: u32) -> bool {
+        has(USES, uses::AREA_LIGHTS)
+            && self.parts.area_lights.iter().any(|light| light.body == shape)
     }
 
     /// The material at a point of a shape, the checker resolved.

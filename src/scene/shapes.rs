@@ -1,6 +1,6 @@
 //! Bounded shapes by their numbers: one list a kind, numbered through.
 
-use super::{Parts, SceneError};
+use super::{Parts, SceneError, TriangleUv};
 use crate::math::{Arithmetic, for_each_arithmetic};
 use crate::octree::{Extent, Octree};
 use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Polygon, PolygonEdge};
@@ -20,6 +20,9 @@ pub struct Shapes<'a, A: Arithmetic> {
     pub polygons: &'a [Polygon<A>],
     /// The edges of all polygons.
     pub edges: &'a [PolygonEdge<A>],
+    /// Texture coordinates of the triangles, then of the smooth triangles, in their order; none for
+    /// those beyond its end.
+    pub uvs: &'a [TriangleUv],
     /// Boxes along the axes.
     pub cuboids: &'a [Cuboid<A>],
     /// Discs.
@@ -107,6 +110,7 @@ impl<A: Arithmetic> Shapes<'_, A> {
         smooth_triangles: &[],
         polygons: &[],
         edges: &[],
+        uvs: &[],
         cuboids: &[],
         discs: &[],
         cylinders: &[],
@@ -125,6 +129,27 @@ impl<A: Arithmetic> Shapes<'_, A> {
             + self.discs.len()
             + self.cylinders.len()
             + self.cones.len()) as u32
+    }
+
+    /// One more than the highest material's index.
+    pub(super) const fn materials(&self) -> usize {
+        let mut most = 0;
+        macro_rules! look {
+            ($($kind:ident)*) => {
+                $(
+                    let mut i = 0;
+                    while i < self.$kind.len() {
+                        let index = self.$kind[i].material_id().index();
+                        if index >= most {
+                            most = index + 1;
+                        }
+                        i += 1;
+                    }
+                )*
+            };
+        }
+        look!(spheres triangles smooth_triangles polygons cuboids discs cylinders cones);
+        most
     }
 
     /// Every shape's material must be there, every polygon's edges, and the tree must be over
@@ -172,6 +197,7 @@ impl<'a, A: Arithmetic> Parts<'a, A> {
             smooth_triangles: self.smooth_triangles,
             polygons: self.polygons,
             edges: self.edges,
+            uvs: self.uvs,
             cuboids: self.cuboids,
             discs: self.discs,
             cylinders: self.cylinders,

@@ -2,7 +2,8 @@
 //! value, so that what has none of it keeps its numbers in registers.
 
 use crate::math::{Arithmetic, Rgb, add, neg, sub};
-use crate::scene::{Material, Scene, Texture};
+use crate::scene::uses::{self, has};
+use crate::scene::{Instance, Material, Scene, Shapes};
 use crate::shape::Surface;
 
 /// The material as a texture colours it at the point of a shape.
@@ -23,24 +24,43 @@ pub(super) fn painted<A: Arithmetic, const USES: u64>(
     }
 }
 
+/// The list that a shape is in, its number there, and the instance that placed it.
+#[inline(always)]
+fn list_of<'s, 'a, A: Arithmetic, const USES: u64>(
+    scene: &'s Scene<'a, A, USES>,
+    shape: u32,
+) -> (&'s Shapes<'a, A>, u32, Option<&'s Instance<'a, A>>) {
+    if has(USES, uses::INSTANCES) && shape >= scene.bounded {
+        let mut index = shape.wrapping_sub(scene.bounded);
+        for instance in scene.parts.instances {
+            let group = instance.group();
+            if index < group.count {
+                return (&group.shapes, index, Some(instance));
+            }
+            index = index.wrapping_sub(group.count);
+        }
+    }
+    (&scene.shapes, shape, None)
+}
+
 /// The texture coordinates at the point of a triangle, in 2⁻¹⁶.
 fn coordinates<A: Arithmetic, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     shape: u32,
     p: &[A::Length; 3],
 ) -> [i32; 2] {
-    let parts = &scene.parts;
-    let index = (shape as usize).wrapping_sub(parts.spheres.len());
-    let weights = if let Some(triangle) = parts.triangles.get(index) {
+    let (shapes, index, _) = list_of(scene, shape);
+    let index = (index as usize).wrapping_sub(shapes.spheres.len());
+    let weights = if let Some(triangle) = shapes.triangles.get(index) {
         triangle.weights(p)
     } else {
-        match parts.smooth_triangles.get(index.wrapping_sub(parts.triangles.len())) {
+        match shapes.smooth_triangles.get(index.wrapping_sub(shapes.triangles.len())) {
             Some(triangle) => triangle.weights(p),
             None => return [0; 2],
         }
     };
     let (second, third) = (A::to_q14(weights.0), A::to_q14(weights.1));
-    parts.uvs.get(index).map_or([0; 2], |uv| uv.at(second, third))
+    shapes.uvs.get(index).map_or([0; 2], |uv| uv.at(second, third))
 }
 
 /// The surface with its shading normal bent by the height of a texture (Blinn, "Simulation of wrinkled
@@ -51,22 +71,24 @@ pub(super) fn bumped<A: Arithmetic, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     texture: u16,
     surface: Surface<A>,
+    shape: u32,
     p: [A::Length; 3],
     direction: [A::Unit; 3],
 ) -> Surface<A> {
-    match scene.parts.textures.get(usize::from(texture)) {
-        Some(texture) => bent(texture, surface, p, direction),
-        None => surface,
-    }
+    let Some(texture) = scene.parts.textures.get(usize::from(texture)) else { return surface };
+    let gradient = texture.gradient(&p);
+    let gradient = match list_of(scene, shape) {
+        (_, _, Some(instance)) => instance.turn_vector(&gradient),
+        _ => gradient,
+    };
+    bent(gradient, surface, direction)
 }
 
 fn bent<A: Arithmetic>(
-    texture: &Texture<'_, A>,
+    gradient: [A::Unit; 3],
     surface: Surface<A>,
-    p: [A::Length; 3],
     direction: [A::Unit; 3],
 ) -> Surface<A> {
-    let gradient = texture.gradient(&p);
     // What rises in front is a hollow from behind.
     let gradient = if surface.behind { neg(&gradient) } else { gradient };
     let n = &surface.normal;

@@ -3,12 +3,14 @@
 use super::detail::absorbed;
 use super::meet::{meet, meet_any, surface_at};
 use super::nearest::nearest;
+use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Scene, Shadow, Shapes};
 use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
+use core::ops::Range;
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
 const MAX_SHEETS: usize = 32;
@@ -78,12 +80,12 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on with the tree, or with the shapes that no line below tests. By value, as in the search
+/// Goes on with the tree, or with those shapes that nobody tests else. By value, as in the search
 /// for the nearest hit.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
     shapes: &Shapes<'_, A>,
-    bounded: u32,
+    mut rest: Range<u32>,
     ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
@@ -97,7 +99,34 @@ fn search<A: Arithmetic, T: Tally, const USES: u64>(
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
         return search.found;
     }
-    (shapes.spheres.len() as u32..bounded).find(|&id| search.test_any(id))
+    rest.find(|&id| search.test_any(id))
+}
+
+/// Goes on with the instances.
+#[inline(never)]
+fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    ray: Ray<A>,
+    limit: A::Length,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Option<u32> {
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        tally.test();
+        let group = instance.group();
+        if let Some(inside) = instance.enter(first, &ray, &coarse, limit) {
+            let limit = instance.distance_inside(&inside, limit);
+            let rest = 0..group.count;
+            let found = search::<A, T, USES>(&group.shapes, rest, inside.ray, limit, walk, tally);
+            if let Some(id) = found {
+                return Some(first.wrapping_add(id));
+            }
+        }
+        first = first.wrapping_add(group.count);
+    }
+    None
 }
 
 /// The number of any shape along the ray nearer than `limit`.
@@ -123,13 +152,20 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         }
     }
     if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
-        let found = search::<A, T, USES>(shapes, scene.bounded, *ray, limit, walk, tally);
+        let rest = shapes.spheres.len() as u32..scene.bounded;
+        let found = search::<A, T, USES>(shapes, rest, *ray, limit, walk, tally);
+        if found.is_some() {
+            return found;
+        }
+    }
+    if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
+        let found = in_instances(scene, *ray, limit, walk, tally);
         if found.is_some() {
             return found;
         }
     }
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.bounded;
+    let mut id = scene.first_plane;
     for plane in planes {
         tally.test();
         if meet(plane, id, ray, &coarse, limit).is_some_and(|m| m.distance < limit) {
@@ -146,11 +182,12 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
-    walk: &mut WalkStack<A>,
+    scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
+    let walk = &mut scratch.walk;
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
-        return filtered(scene, *ray, limit, walk, tally);
+        return filtered(scene, *ray, limit, NO_SHAPE, walk, tally);
     }
     match occluder(scene, ray, limit, walk, tally) {
         Some(shape) => {
@@ -161,12 +198,46 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     }
 }
 
-/// The product of the coefficients of transmission along the straight line.
+/// No shape's number.
+const NO_SHAPE: u32 = u32::MAX;
+
+/// The same for a light on the surface of the shape `body`, which doesn't stand in its way.
+#[inline(never)]
+pub(super) fn visible_beside<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    ray: &Ray<A>,
+    limit: A::Length,
+    body: u32,
+    scratch: &mut Scratch<A>,
+    tally: &mut T,
+) -> Option<Rgb<A::Weight>> {
+    let walk = &mut scratch.walk;
+    if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
+        return filtered(scene, *ray, limit, body, walk, tally);
+    }
+    let mut found = occluder(scene, ray, limit, walk, tally);
+    if found == Some(body) {
+        // The ray ends on the body, where rounding can see it a little nearer; whatever else is in
+        // the way is nearer still.
+        found = nearest(scene, ray, limit, walk, tally).map(|hit| hit.shape);
+        found = found.filter(|&shape| shape != body);
+    }
+    match found {
+        Some(shape) => {
+            tally.hit::<A>(RayKind::Shadow, shape, limit);
+            None
+        }
+        None => Some([A::FULL; 3]),
+    }
+}
+
+/// The product of the coefficients of transmission along the straight line, up to the light's body.
 #[inline(never)]
 fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     mut ray: Ray<A>,
     limit: A::Length,
+    body: u32,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
@@ -174,10 +245,14 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
     let mut left = limit;
     for _ in 0..MAX_SHEETS {
         let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
+        if hit.shape == body {
+            return Some(share);
+        }
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let (surface, id) = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
-        let material = scene.material_at(id, &p)?;
+        let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
+        let surface = place.surface;
+        let material = scene.material_at(place.material, &place.local)?;
         if has(USES, uses::ABSORPTION)
             && let Some(absorption) = material.absorption()
         {

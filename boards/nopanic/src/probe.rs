@@ -18,8 +18,12 @@ use embedded_graphics::primitives::Rectangle;
 use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
-use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Material};
+use whitted::scene::{Absorption, Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec};
+use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
+use whitted::scene::{Group, Instance, Light, LightSpec};
+use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
+use whitted::scene::{TriangleUv, Wrap};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
 use whitted::shape::{Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
@@ -50,8 +54,13 @@ macro_rules! arithmetic {
                 transmission: any([0.2; 3]),
                 index_front: any(1.0),
                 index_behind: any(1.5),
+                emission: any([0.1; 3]),
                 shadow: any(Shadow::Filtered),
                 pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
+                texture: any(Some(0)),
+                bump: any(Some(1)),
+                fresnel: any(true),
+                absorption: any(Some(0)),
             };
             let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
             let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
@@ -85,15 +94,84 @@ macro_rules! arithmetic {
                 Light::<$a>::try_new(&spot).ok()?,
             ]);
             any(lights[0].direction());
+            let spec = |area| AreaLightSpec {
+                area,
+                radiance: any([9.0; 3]),
+                error: any(0.1),
+                samples: any([2, 9]),
+                body: any(Some(1)),
+            };
+            let image = Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
+            let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
+            any(image.size());
+            let texture = TextureSpec {
+                mapping: any(Mapping::Spherical),
+                other: any(Some(1)),
+                height: any(0.5),
+                ..TextureSpec::of(any(Pattern::Image(image)))
+            };
+            let textures = any([Texture::<$a>::try_new(&any(texture)).ok()?; 2]);
+            let uvs = any([TriangleUv::try_new(any([[0.5; 2]; 3])).ok()?; 4]);
+            let absorptions =
+                any([Absorption::<$a>::try_new(any([0.5; 3]), any([0.1; 3])).ok()?; 1]);
+            let (corner, edge) = (any([1.0; 3]), any([1.0; 3]));
+            let area_lights = any([
+                AreaLight::<$a>::try_new(&spec(Area::Rectangle { corner, u: edge, v: edge }))
+                    .ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Triangle { corners })).ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Polygon {
+                    corners: any(&corners),
+                    first: any(0),
+                }))
+                .ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Disc {
+                    center: corner,
+                    normal: edge,
+                    radius: any(1.0),
+                }))
+                .ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Sphere { center: corner, radius: any(1.0) }))
+                    .ok()?,
+            ]);
+            any(area_lights[0].body());
+            let fan = any([AreaLight::<$a>::try_fan(any(&corners), any(0)).ok()?; 2]);
             any(Background::<$a>::try_uniform(any([0.1; 3])).ok()?);
             let background =
                 Background::<$a>::try_gradient(any([0.0; 3]), any([0.1; 3]), any([0.1; 3]));
+            let shapes = any(Shapes {
+                spheres: &spheres,
+                triangles: &triangles,
+                smooth_triangles: &smooth,
+                polygons: &polygons,
+                edges: &edges,
+                uvs: &uvs,
+                cuboids: &cuboids,
+                discs: &discs,
+                cylinders: &cylinders,
+                cones: &cones,
+                tree: None,
+            });
+            let group = Group::<$a>::try_new(shapes);
+            if let Err(error) = &group {
+                any(error.message());
+            }
+            let group = any(group.ok()?);
+            any((group.uses(), group.shapes().bounded()));
+            let turned = any(Transform::IDENTITY).scaled(any(2.0)).rotated(any([1.0; 3]), any(9.0));
+            let turned = turned.moved(any([1.0; 3])).turned(&any(Transform::IDENTITY).rotation);
+            any(turned.apply(any([1.0; 3])));
+            let instance = Instance::<$a>::try_new(&group, &turned);
+            let instance = any(instance.ok()?).with_material(any(1));
+            let instances = [any(instance.at(any(instance.position())))];
+            any(instance.group().uses());
             let parts = Parts {
+                instances: any(&instances),
                 spheres: any(&spheres),
                 triangles: any(&triangles),
                 smooth_triangles: any(&smooth),
                 polygons: any(&polygons),
                 edges: any(&edges),
+                uvs: any(&uvs),
                 cuboids: any(&cuboids),
                 discs: any(&discs),
                 cylinders: any(&cylinders),
@@ -101,7 +179,12 @@ macro_rules! arithmetic {
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
+                textures: any(&textures),
+                absorptions: any(&absorptions),
                 lights: any(&lights),
+                area_lights: any(&area_lights),
+                light_corners: any(&fan),
+                light_jitter: any(Some(3)),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
                 background: any(background.ok()?),
                 rules: any(Rules::COURSE),
@@ -136,6 +219,8 @@ macro_rules! arithmetic {
             }
             let scene = any(scene.ok()?);
             any(scene.parts());
+            any(scene.lists(any(2)));
+            let scene = any(scene.with_instances(any(&instances)).ok()?);
             any(spheres[0].at(any(spheres[1].center())).radius());
 
             let camera =
@@ -188,7 +273,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
-    let tracer = any(Tracer::new(scene, any(5)));
+    let tracer = any(Tracer::new(scene, any(5)).with_key(any(7)));
     let mut tally = tally;
     any(tracer.nearest(&ray, &mut work, &mut tally));
     any(tracer.radiance(ray, &mut work, &mut tally));
@@ -311,6 +396,8 @@ fn lengths<A: Arithmetic>() {
     any(A::weight(w, w));
     any(A::quotient(w, w));
     any(A::weight_of(u));
+    any(A::fraction(any(7)));
+    any(A::share(t, &any(A::normalize(&p).2)));
     any(A::dim(r, w));
     any(A::gather(r, r));
     any(A::mean(r, any(0)));

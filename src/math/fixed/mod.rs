@@ -15,6 +15,7 @@ mod direction;
 mod flat;
 mod kernel;
 mod light;
+mod place;
 mod round;
 
 use super::root::{reciprocal_q28, sqrt_u32};
@@ -111,6 +112,27 @@ pub struct FixedSpot {
     slack_q14: i32,
 }
 
+/// See [`Arithmetic::Rotation`]: each entry is `high_q17` and `low_q30` together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedRotation {
+    high_q17: [[i32; 3]; 3],
+    low_q30: [[i16; 3]; 3],
+}
+
+/// See [`Arithmetic::Scale`]: the factor and its reciprocal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedScale {
+    factor: FixedFactor,
+    reciprocal: FixedFactor,
+}
+
+/// `mantissa_q30 · 2^exponent`, mantissa in 1 to 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct FixedFactor {
+    mantissa_q30: u32,
+    exponent: i8,
+}
+
 /// A ray with Q12 directions and positions in steps of 1/128.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedCoarse {
@@ -148,6 +170,8 @@ impl Arithmetic for Fixed {
     type Coarse = FixedCoarse;
     type Aim = Aim;
     type Span = i32;
+    type Rotation = FixedRotation;
+    type Scale = FixedScale;
 
     const NAME: &'static str = "fixed";
     const REFINE: bool = true;
@@ -284,6 +308,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn share(a: I16F16, inverse: &FixedInverse) -> Unit {
+        light::share(a, inverse)
+    }
+
+    #[inline(always)]
     fn over(r: &FixedRadius, v: &[I16F16; 3]) -> [Unit; 3] {
         let f = |v: I16F16| Unit::from_bits(r.divide(v.to_bits()));
         [f(v[0]), f(v[1]), f(v[2])]
@@ -371,6 +400,11 @@ impl Arithmetic for Fixed {
         // a ≤ b ≤ 2 here: a << 14 fits
         let quotient = (a.to_bits() << 14).checked_div(b.to_bits()).unwrap_or(0);
         Weight::from_bits(quotient)
+    }
+
+    #[inline(always)]
+    fn fraction(x: i32) -> Unit {
+        Unit::from_bits(x.wrapping_mul(2))
     }
 
     #[inline(always)]
@@ -514,6 +548,36 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn span(t: I16F16, log2_side: i8) -> i32 {
         shift(t.to_bits(), 16 - i32::from(log2_side)).wrapping_add(1)
+    }
+
+    #[inline(always)]
+    fn rotate(r: &FixedRotation, v: &[I16F16; 3]) -> [I16F16; 3] {
+        place::rotate(r, v)
+    }
+
+    #[inline(always)]
+    fn rotate_back(r: &FixedRotation, v: &[I16F16; 3]) -> [I16F16; 3] {
+        place::rotate(&r.back(), v)
+    }
+
+    #[inline(always)]
+    fn turn(r: &FixedRotation, d: &[Unit; 3]) -> [Unit; 3] {
+        place::turn(r, d)
+    }
+
+    #[inline(always)]
+    fn turn_back(r: &FixedRotation, d: &[Unit; 3]) -> [Unit; 3] {
+        place::turn(&r.back(), d)
+    }
+
+    #[inline(always)]
+    fn magnify(s: &FixedScale, a: I16F16) -> I16F16 {
+        s.factor.times(a)
+    }
+
+    #[inline(always)]
+    fn reduce(s: &FixedScale, a: I16F16) -> I16F16 {
+        s.reciprocal.times(a)
     }
 
     #[inline(always)]

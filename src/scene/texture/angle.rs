@@ -66,7 +66,7 @@ fn turned(x: i32, y: i32) -> (u32, i32) {
 pub(super) fn sphere(d: [i32; 3]) -> [i32; 2] {
     let (longitude, radius) = turned(d[0] << 8, -d[2] << 8);
     // The height grown alike; then a right angle is 2¹⁴.
-    let height = (i64::from(d[1] << 8) * GROWTH_Q16 >> 16) as i32;
+    let height = ((i64::from(d[1] << 8) * GROWTH_Q16) >> 16) as i32;
     let latitude = turned(radius, height).0 as u16 as i16;
     [longitude as i32, ((i32::from(latitude) + (1 << 14)) << 1).clamp(0, 1 << 16)]
 }

@@ -126,7 +126,7 @@ impl<'a> Image<'a> {
         let (right, up) = (x.wrapping_add(1), y.wrapping_add(1));
         let (a, b) = (self.texel(x, y), self.texel(right, y));
         let (c, d) = (self.texel(x, up), self.texel(right, up));
-        let mix = |a: i32, b: i32, t: i32| a + ((b - a) * t >> 14);
+        let mix = |a: i32, b: i32, t: i32| a + (((b - a) * t) >> 14);
         let channel = |i: usize| mix(mix(a[i], b[i], t[0]), mix(c[i], d[i], t[0]), t[1]);
         // Two colours differ by less than 2¹⁶: a signed product with 2¹⁴ just fits.
         [channel(0), channel(1), channel(2)]

@@ -32,15 +32,16 @@ fn product(corner: [i32; 3], d: [i32; 3]) -> i32 {
 
 /// 6t⁵ − 15t⁴ + 10t³ of a number of 2⁻¹⁴ in 0 to 1.
 pub(super) fn fade_q14(t: i32) -> i32 {
-    let cube = (t * t >> 14) * t >> 14;
+    let square = (t * t) >> 14;
+    let cube = (square * t) >> 14;
     // 10 − 15t + 6t², which is 1 to 10; its products with t² fit without a sign
-    let rest = (10 << 14) - 15 * t + (6 * (t * t >> 14));
-    (cube as u32 * rest as u32 >> 14) as i32
+    let rest = (10 << 14) - 15 * t + 6 * square;
+    ((cube as u32 * rest as u32) >> 14) as i32
 }
 
 #[inline(always)]
 fn mix(a: i32, b: i32, t_q14: i32) -> i32 {
-    a + ((b - a) * t_q14 >> 14)
+    a + (((b - a) * t_q14) >> 14)
 }
 
 /// Noise at a point of 2⁻¹⁶, in 2⁻¹⁴: between −1 and 1, null at the lattice's corners and in the mean.

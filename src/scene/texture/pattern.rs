@@ -100,7 +100,7 @@ fn bent(x: i32, q: [i32; 3], octaves: u8, turbulence_q8: i16) -> i32 {
     if turbulence_q8 == 0 {
         return x;
     }
-    x.wrapping_add(noise::octaves_q14(q, octaves) * i32::from(turbulence_q8) >> 6)
+    x.wrapping_add((noise::octaves_q14(q, octaves) * i32::from(turbulence_q8)) >> 6)
 }
 
 /// From 0 to 1 and back in one cell, as smooth as a sine.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::math::Fixed;
-use crate::scene::{Pattern, TextureSpec, Wrap};
+use crate::scene::{Pattern, Texture, TextureSpec, Wrap};
 use proptest::prelude::*;
 extern crate std;
 
@@ -79,7 +79,7 @@ proptest! {
         let spec = TextureSpec { height, ..TextureSpec::of(noise) };
         let surface =
             Surface { geometric: n, normal: n, cosine, behind, smooth: false, part: 0 };
-        let got = bent(&Texture::<f64>::new(spec), surface, p, d);
+        let got = bent::<f64>(Texture::<f64>::new(spec).gradient(&p), surface, d);
         let length = got.normal.iter().map(|x| x * x).sum::<f64>().sqrt();
         prop_assert!((length - 1.0).abs() < 1e-12);
         prop_assert!(got.cosine > 0.0 && got.geometric == n && got.behind == behind);
@@ -94,7 +94,7 @@ proptest! {
             part: 0,
         };
         let p = p.map(<Fixed as Arithmetic>::Length::from_num);
-        let other = bent(&Texture::<Fixed>::new(spec), surface, p, fixed(d));
+        let other = bent::<Fixed>(Texture::<Fixed>::new(spec).gradient(&p), surface, fixed(d));
         let normal = other.normal.map(|x| x.to_num::<f64>());
         let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
         prop_assert!((length - 1.0).abs() < 1e-4, "{length}");
@@ -112,15 +112,15 @@ proptest! {
 fn a_ramp_bends_the_normal_by_its_slope() {
     let wrap = Wrap::Repeat;
     let spec = TextureSpec { height: 0.5, ..TextureSpec::of(Pattern::Gradient { wrap }) };
-    let texture = Texture::<f64>::new(spec);
+    let gradient = Texture::<f64>::new(spec).gradient(&[0.2; 3]);
     let n = [0.0, 1.0, 0.0];
     let surface =
         Surface { geometric: n, normal: n, cosine: 1.0, behind: false, smooth: false, part: 0 };
     let down = [0.0, -1.0, 0.0];
     // Upwards along x by a half: the normal leans back by as much.
     let l = 1.25f64.sqrt();
-    let lean = bent(&texture, surface, [0.2; 3], down).normal;
+    let lean = bent::<f64>(gradient, surface, down).normal;
     assert!((lean[0] + 0.5 / l).abs() < 1e-3 && (lean[1] - 1.0 / l).abs() < 1e-3, "{lean:?}");
-    let lean = bent(&texture, Surface { behind: true, ..surface }, [0.2; 3], down).normal;
+    let lean = bent::<f64>(gradient, Surface { behind: true, ..surface }, down).normal;
     assert!((lean[0] - 0.5 / l).abs() < 1e-3, "{lean:?}");
 }

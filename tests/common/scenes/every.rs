@@ -83,6 +83,7 @@ pub const PARTS: Parts<A> = Parts {
         Cylinder::<A>::new([0.2, 0.2, -2.4], [1.4, 0.3, -2.8], -0.2, BLUE),
     ],
     cones: &[Cone::<A>::new([-2.4, 0.0, 2.4], 0.9, [-2.3, 2.1, 2.5], 0.2, RED)],
+    instances: &[],
     planes: &[Plane::<A>::new([0.0, 1.0, 0.0], 0.0, FLOOR)],
     tree: None,
     materials: &MATERIALS,
@@ -107,6 +108,7 @@ pub const PARTS: Parts<A> = Parts {
     ambient: Ambient::<A>::new([0.15, 0.15, 0.18]),
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.75, 0.7, 0.6], [0.1, 0.25, 0.6]),
     rules: Rules { specular_cosine: false, ..Rules::COURSE },
+    ..Parts::EMPTY
 };
 
 pub static TREE: OctreeBuffer<256> = OctreeBuffer::build(&PARTS.extents::<BOUNDED>(LOG2_STEP));
