@@ -2,7 +2,7 @@
 //!
 //! Floating point takes a scene as it is. Fixed point has one step everywhere, so a scene is
 //! moved to the origin and scaled by a power of two until it fills the range; lengths that the
-//! scene states (checker cells, positions of lights and camera) follow, and the intensity of a
+//! scene states (cells of patterns, positions of lights and camera) follow, and the intensity of a
 //! light with falloff grows with the square.
 //!
 //! What the range is filled with:
@@ -12,6 +12,8 @@
 //! - A light so far that its direction changes by less than [`PARALLEL`] over the whole scene is
 //!   made directional, which it is to the eye; anything nearer keeps its place. Moving a light
 //!   nearer would change directions by as much as it gains range, so that is never done.
+
+use whitted::scene::{Mapping, TextureSpec};
 
 use crate::document::{
     Background, Body, Camera, Document, Falloff, Light, LightKind, Point, length, scaled, sub,
@@ -93,6 +95,14 @@ impl Placement {
             checker.cell = scaled(checker.cell, self.scale());
             checker.offset = self.point(checker.offset);
         }
+        for material in &mut placed.materials {
+            for texture in [&mut material.texture, &mut material.bump].into_iter().flatten() {
+                self.texture(&mut texture.spec);
+            }
+            for rate in material.absorption.as_flattened_mut() {
+                *rate /= self.scale();
+            }
+        }
         for shape in &mut placed.shapes {
             self.body(&mut shape.body);
         }
@@ -105,6 +115,17 @@ impl Placement {
             Background::Color(_) | Background::Gradient { .. } => {}
         }
         placed
+    }
+
+    fn texture(&self, spec: &mut TextureSpec<'_>) {
+        let s = self.scale();
+        spec.origin = self.point(spec.origin);
+        spec.height *= s;
+        match spec.mapping {
+            Mapping::Planar => spec.size = scaled(spec.size, s),
+            Mapping::Cylindrical => spec.size[1] *= s,
+            Mapping::Spherical | Mapping::Uv => {}
+        }
     }
 
     fn light(&self, light: &mut Light, center: Point, radius: f64) {

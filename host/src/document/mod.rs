@@ -15,6 +15,7 @@ mod material;
 mod place;
 mod rules;
 mod shape;
+mod texture;
 mod transform;
 mod vector;
 
@@ -25,6 +26,7 @@ pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
 pub use rules::Rules;
 pub use shape::{Body, Shape};
+pub use texture::Texture;
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
 

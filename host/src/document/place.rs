@@ -161,6 +161,9 @@ impl Document {
         for checker in materials.iter_mut().filter_map(|m| m.checker.as_mut()) {
             checker.other += first;
         }
+        for other in materials.iter_mut().filter_map(|m| m.texture.as_mut()?.other.as_mut()) {
+            *other += first;
+        }
         self.materials.append(&mut materials);
         // Files that the other file includes keep their names; in a copy they lie further on.
         let part = |shapes, materials, lights, file: &Path| Included {
@@ -179,7 +182,8 @@ impl Document {
                 let misplaced = |why| Misplaced { what: shape.body.name(), line: shape.line, why };
                 for body in shape.body.placed(by).map_err(misplaced)? {
                     let material = shape.material + first;
-                    self.shapes.push(super::Shape { body, material, line: shape.line });
+                    let uv = super::Shape::uv_placed(shape.uv, by.mirrors());
+                    self.shapes.push(super::Shape { body, material, uv, line: shape.line });
                 }
             }
             went.push(self.shapes.len());

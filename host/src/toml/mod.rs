@@ -6,6 +6,7 @@ mod light;
 mod material;
 mod place;
 mod table;
+mod texture;
 
 use toml::de::DeTable;
 
@@ -47,7 +48,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
     };
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
-    let mut names = Names::read(&tables(&scene, "material")?)?;
+    let mut names = Names::read(&tables(&scene, "material")?, around)?;
     let lights = tables(&scene, "light")?;
     let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
     let mut document = Document {
@@ -70,6 +71,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
         for table in tables(&scene, kind)? {
             let material = names.of(&table)?;
             let bodies = read(&table)?;
+            let uv = if kind == "triangle" { body::uv(&table)? } else { None };
             let copies = place::read(&table)?;
             table.done()?;
             for body in bodies {
@@ -84,7 +86,8 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
                             return Err(wrong(why));
                         }
                         within(&body, table.line)?;
-                        shapes.push(Shape { body, material, line: table.line });
+                        let uv = Shape::uv_placed(uv, by.mirrors());
+                        shapes.push(Shape { body, material, uv, line: table.line });
                     }
                 }
             }

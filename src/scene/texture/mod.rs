@@ -237,9 +237,12 @@ const fn kind<'a>(spec: &TextureSpec<'a>) -> Option<Kind<'a>> {
             if !(x > 0.0 && y > 0.0) {
                 return None;
             }
-            Kind::Brick {
-                mortar_q16: [some!(fraction_q16(mortar / x)), some!(fraction_q16(mortar / y))],
-            }
+            // As wide only where both sides are lengths.
+            let along = match spec.mapping {
+                Mapping::Planar => mortar * y / x,
+                _ => mortar,
+            };
+            Kind::Brick { mortar_q16: [some!(fraction_q16(along)), some!(fraction_q16(mortar))] }
         }
         Pattern::Image(image) => Kind::Image(image),
     })

@@ -41,7 +41,7 @@ pub enum Pattern<'a> {
     },
     /// Bricks of the first colour in mortar of the second, each row half a brick along.
     Brick {
-        /// The mortar between two bricks, in the unit of `size`, less than a brick.
+        /// The mortar's part of a row's height, 0 to 1. Between two bricks of a row it is as wide.
         mortar: f64,
     },
     /// A picture. A cell is the whole of it.
