@@ -8,6 +8,7 @@ pub mod document;
 pub mod error;
 pub mod flash;
 mod mesh;
+pub mod need;
 pub mod nff;
 pub mod number;
 pub mod obj;

@@ -297,6 +297,8 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn power(cos: Self::Weight, n: &Self::Exponent) -> Self::Weight;
     /// `r·w`.
     fn dim(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
+    /// `r/w`, for a weighted mean: `w` from 1/64 to 1024, the quotient below 1024.
+    fn over_weight(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
     /// `middle + slope·u`, not below 0, for |slope| ≤ middle.
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating.
@@ -305,6 +307,12 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;
     /// The radiance as a number of 1/65536, saturating: what the tone curve reads.
     fn to_q16(r: Self::Radiance) -> i32;
+    /// The radiance of a number of 1/65536.
+    fn from_q16(bits: i32) -> Self::Radiance;
+    /// A component of a unit vector as a number of 1/131072.
+    fn to_q17(u: Self::Unit) -> i32;
+    /// `a/b` as a number of 1/65536, for `a ≥ 0` and `b ≥ 0`; saturating at 2³¹ − 1, also for b = 0.
+    fn ratio_q16(a: Self::Length, b: Self::Length) -> u32;
     /// Intensity times the square of an inverse length, saturating at 1024.
     fn falloff(intensity: &Self::Intensity, inverse: &Self::Inverse) -> Self::Radiance;
     /// Intensity without falloff.

@@ -3,10 +3,12 @@
 mod area;
 mod detail;
 mod direct;
+mod indirect;
 mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod site;
 mod visible;
 mod work;
 
