@@ -333,8 +333,6 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn length_q16(bits: i32) -> Self::Length;
     /// The component of a number of 1/131072.
     fn unit_q17(bits: i32) -> Self::Unit;
-    /// A component of a unit vector as a number of 1/131072.
-    fn to_q17(u: Self::Unit) -> i32;
 
     /// `base + step·(n + fraction/256)`, `fraction` in 0 to 255.
     fn aim(base: Self::Aim, step: Self::Aim, n: i32, fraction: i32) -> Self::Aim;

@@ -528,11 +528,6 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn to_q17(u: Unit) -> i32 {
-        u.to_bits()
-    }
-
-    #[inline(always)]
     fn aim(base: Aim, step: Aim, n: i32, fraction: i32) -> Aim {
         let step = step.to_bits();
         let part = (step >> 8).wrapping_mul(fraction);

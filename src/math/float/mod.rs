@@ -472,11 +472,6 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn to_q17(u: $f) -> i32 {
-                (u * 131072.0) as i32
-            }
-
-            #[inline(always)]
             fn aim(base: $f, step: $f, n: i32, fraction: i32) -> $f {
                 base + step * (n as $f + fraction as $f * (1.0 / 256.0))
             }
