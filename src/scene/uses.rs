@@ -82,6 +82,10 @@ pub const EMISSION: u64 = 1 << 23;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
+/// Solids.
+pub const SOLIDS: u64 = 1 << 41;
+/// Cylinders and cones with caps.
+pub const CAPS: u64 = 1 << 42;
 /// [`Indirect::Cache`](crate::gather::Indirect::Cache).
 pub const IRRADIANCE_CACHE: u64 = 1 << 48;
 
@@ -107,7 +111,8 @@ pub(crate) const fn has(uses: u64, what: u64) -> bool {
 /// Whether there may be other bounded shapes than spheres.
 #[inline(always)]
 pub(crate) const fn has_others(uses: u64) -> bool {
-    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES | SOLIDS)
+        != 0
 }
 
 /// Whether there may be diffuse interreflection.
@@ -141,6 +146,17 @@ const fn bit(wanted: bool, what: u64) -> u64 {
 impl<A: Arithmetic> Shapes<'_, A> {
     /// The bits of these shapes.
     pub(crate) const fn uses(&self) -> u64 {
+        let mut caps = false;
+        let mut i = 0;
+        while i < self.cylinders.len() {
+            caps |= self.cylinders[i].has_caps();
+            i += 1;
+        }
+        let mut i = 0;
+        while i < self.cones.len() {
+            caps |= self.cones[i].has_caps();
+            i += 1;
+        }
         bit(!self.triangles.is_empty(), TRIANGLES)
             | bit(!self.smooth_triangles.is_empty(), SMOOTH_TRIANGLES)
             | bit(!self.polygons.is_empty(), POLYGONS)
@@ -148,6 +164,8 @@ impl<A: Arithmetic> Shapes<'_, A> {
             | bit(!self.discs.is_empty(), DISCS)
             | bit(!self.cylinders.is_empty(), CYLINDERS)
             | bit(!self.cones.is_empty(), CONES)
+            | bit(!self.solids.is_empty(), SOLIDS)
+            | bit(caps, CAPS)
             | bit(self.tree.is_some(), TREE)
     }
 }

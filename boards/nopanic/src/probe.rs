@@ -26,8 +26,8 @@ use whitted::scene::{Group, Instance, Light, LightSpec};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::scene::{TriangleUv, Wrap};
-use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
-use whitted::shape::{Sphere, Triangle};
+use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
+use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::{Tracer, Work};
 use whitted::{Color, Picture};
@@ -81,6 +81,24 @@ macro_rules! arithmetic {
             let (base, apex) = (any([0.0; 3]), any([1.0; 3]));
             let cylinders = any([Cylinder::<$a>::try_new(base, apex, any(1.0), any(0)).ok()?; 2]);
             let cones = any([Cone::<$a>::try_new(base, any(1.0), apex, any(2.0), any(0)).ok()?; 2]);
+            let cylinders = [cylinders[0], any(cylinders[1].with_caps())];
+            let cones = [cones[0], any(cones[1].with_caps())];
+            let operands = any([
+                Operand::Sphere(spheres[0]),
+                Operand::Cuboid(cuboids[0]),
+                Operand::Cylinder(cylinders[0]),
+                Operand::Cone(cones[0]),
+                Operand::HalfSpace(planes[0]),
+            ]);
+            let region = any(Region::of(any(0))).or(any(Region::of(1))).and(any(Region::of(2)));
+            let region = any(region.minus(any(Region::NOTHING)));
+            any((region.is_nothing(), region.holds(any(7))));
+            let solid = Solid::<$a>::try_new(region, any(&operands), any(0), any(5));
+            if let Err(error) = &solid {
+                any(error.message());
+            }
+            let solids = any([solid.ok()?]);
+            any((solids[0].first_operand(), solids[0].operand_count()));
             any(Triangle::<$a>::extent_of(corners, any(-16)));
             any(Polygon::<$a>::extent_of(any(&corners), any(-16)));
             let (position, direction, intensity) = (any([1.0; 3]), any([1.0; 3]), any([9.0; 3]));
@@ -151,6 +169,8 @@ macro_rules! arithmetic {
                 discs: &discs,
                 cylinders: &cylinders,
                 cones: &cones,
+                solids: &solids,
+                operands: &operands,
                 tree: None,
             });
             let group = Group::<$a>::try_new(shapes);
@@ -178,6 +198,8 @@ macro_rules! arithmetic {
                 discs: any(&discs),
                 cylinders: any(&cylinders),
                 cones: any(&cones),
+                solids: any(&solids),
+                operands: any(&operands),
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
@@ -203,6 +225,7 @@ macro_rules! arithmetic {
                 discs[0].extent(step),
                 cylinders[0].extent(step),
                 cones[0].extent(step),
+                solids[0].extent(step),
             ]);
             any(parts.bounded());
             let (mut words, mut scratch) = (any([0; 80]), any([0; 80]));
@@ -212,7 +235,7 @@ macro_rules! arithmetic {
                 any(error.message());
             }
             let cube = any(built.ok()?).cube;
-            let tree = Octree::<$a>::try_new(any(&words), any(8), &cube, any(-16));
+            let tree = Octree::<$a>::try_new(any(&words), any(9), &cube, any(-16));
             if let Err(error) = &tree {
                 any(error.message());
             }

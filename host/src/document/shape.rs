@@ -1,6 +1,6 @@
 //! Shapes.
 
-use super::{Bounds, Point, add, cross, length, scaled, sub};
+use super::{Bounds, Point, Solid, add, cross, length, scaled, sub};
 
 /// A shape: its geometry and its material.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,16 @@ impl Shape {
     /// Texture coordinates as a transform leaves them, which exchanges corners where it mirrors.
     pub(crate) fn uv_placed(uv: Option<[[f64; 2]; 3]>, mirrors: bool) -> Option<[[f64; 2]; 3]> {
         uv.map(|[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] })
+    }
+
+    /// Gives every material another index.
+    pub fn rename(&mut self, index: &mut impl FnMut(usize) -> usize) {
+        self.material = index(self.material);
+        if let Body::Solid(solid) = &mut self.body {
+            for operand in &mut solid.operands {
+                operand.material = index(operand.material);
+            }
+        }
     }
 }
 
@@ -73,7 +83,7 @@ pub enum Body {
         /// Its corners, four or more.
         corners: Vec<Point>,
     },
-    /// A cylinder without caps; a negative radius shows the inside alone.
+    /// A cylinder; a negative radius shows the inside alone.
     Cylinder {
         /// One end of the axis.
         base: Point,
@@ -81,8 +91,10 @@ pub enum Body {
         apex: Point,
         /// Its radius.
         radius: f64,
+        /// Whether discs close it.
+        capped: bool,
     },
-    /// A cone, whole or cut, without caps; negative radii show the inside alone.
+    /// A cone, whole or cut; negative radii show the inside alone.
     Cone {
         /// One end of the axis.
         base: Point,
@@ -92,7 +104,11 @@ pub enum Body {
         apex: Point,
         /// The radius there, 0 for a whole cone.
         apex_radius: f64,
+        /// Whether discs close it.
+        capped: bool,
     },
+    /// Closed shapes united, intersected, taken from each other.
+    Solid(Solid),
 }
 
 impl Body {
@@ -108,6 +124,7 @@ impl Body {
             Self::Polygon { .. } => "polygon",
             Self::Cylinder { .. } => "cylinder",
             Self::Cone { .. } => "cone",
+            Self::Solid(_) => "solid",
         }
     }
 
@@ -122,14 +139,15 @@ impl Body {
                 Bounds::around(corners)
             }
             Self::Polygon { corners } => Bounds::around(corners),
-            Self::Cylinder { base, apex, radius } => {
+            Self::Cylinder { base, apex, radius, .. } => {
                 let axis = sub(*apex, *base);
                 Some(ring(*base, axis, *radius).union(ring(*apex, axis, *radius)))
             }
-            Self::Cone { base, base_radius, apex, apex_radius } => {
+            Self::Cone { base, base_radius, apex, apex_radius, .. } => {
                 let axis = sub(*apex, *base);
                 Some(ring(*base, axis, *base_radius).union(ring(*apex, axis, *apex_radius)))
             }
+            Self::Solid(solid) => solid.bounds(),
         }
     }
 
@@ -152,13 +170,13 @@ impl Body {
             }
             // Its maker, `polygon::split`, has looked.
             Self::Polygon { .. } => None,
-            Self::Cylinder { base, apex, radius } => {
+            Self::Cylinder { base, apex, radius, .. } => {
                 if *radius == 0.0 {
                     return Some("its radius is 0: it must be another number");
                 }
                 null(sub(*apex, *base)).map(|_| "its two ends are one point")
             }
-            Self::Cone { base, base_radius, apex, apex_radius } => {
+            Self::Cone { base, base_radius, apex, apex_radius, .. } => {
                 if *base_radius == 0.0 && *apex_radius == 0.0 {
                     return Some("both its radii are 0: one must be another number");
                 }
@@ -167,6 +185,8 @@ impl Body {
                 }
                 null(sub(*apex, *base)).map(|_| "its two ends are one point")
             }
+            // Its reader has looked at the parts.
+            Self::Solid(_) => None,
         }
     }
 }
