@@ -56,7 +56,7 @@ pub use texture::{
 pub use transform::Transform;
 
 pub(crate) use area_light::Form;
-pub(crate) use light::Incident;
+pub(crate) use light::{Incident, Source};
 
 use crate::gather::Indirect;
 use crate::math::{Arithmetic, Rgb};

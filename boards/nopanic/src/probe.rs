@@ -15,9 +15,11 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
+use whitted::frame::Transfer;
+use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
-use whitted::gather::{Record, RecordSpec};
+use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
+use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{Absorption, Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec};
@@ -283,7 +285,20 @@ macro_rules! arithmetic {
             let filled = gatherer.ok()?.fill(&camera, size, &mut pool, &mut drafts).ok()?;
             any((filled.is_full(), filled.records().len()));
             let cache = IrradianceCache::<$a>::try_new(any(filled.records()), any(0.25)).ok()?;
-            let scene = any(scene.with_indirect(any(Indirect::Cache(cache))).ok()?);
+            let spec = VirtualLightsSpec {
+                bounces: any(2),
+                tile: any(2),
+                nearest: any(0.5),
+                center: any([0.0; 3]),
+                radius: any(9.0),
+            };
+            let settings = any(VirtualLightsSettings::<$a>::try_new(&spec).ok()?);
+            let mut pool = any([VirtualLight::<$a>::NONE; 16]);
+            let laid = VirtualLights::lay(&scene, &settings, &mut pool, &mut memory, &mut counts);
+            let laid = any(VirtualLights::new(any(laid.lights()), &settings));
+            let indirect = any([Indirect::Cache(cache), Indirect::VirtualLights(laid)]);
+            any(indirect[0].uses());
+            let scene = any(scene.with_indirect(any(indirect[1])).ok()?);
             let camera = Camera::<$a>::try_from_vectors(
                 any([0.0; 3]),
                 any([1.0; 3]),
@@ -314,6 +329,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
         ..Settings::new(any(60), any(60))
     };
     any(settings.sampling.samples(any(60)));
+    any(settings.sampling.uses());
     let samples = &mut samples[..];
     let mut renderer =
         Renderer::with_tally(scene, camera, settings, &mut work, any(samples), tally).ok()?;
@@ -328,6 +344,15 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let ray = any(renderer.ray(any(3), any(4)));
     any(renderer.radiance(&ray));
     pixels(&mut renderer, &output);
+    let mut passes = any(Passes::new(any(16))).ok()?;
+    any(renderer.refine(
+        &mut passes,
+        |_| any(false),
+        |block| {
+            any(block.x);
+        },
+    ));
+    any((passes.side(), passes.is_done()));
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
@@ -367,6 +392,10 @@ fn picture<'a, A: Arithmetic, T: Tally, C: Color>(
     any(Image::new(&picture, any(Point::zero())).draw(&mut display).is_ok());
     let area = Rectangle::new(any(Point::zero()), any(Size::new(9, 9)));
     any(picture.draw_sub_image(&mut display, &area).is_ok());
+    if let Ok(mut passes) = Passes::new(any(8)) {
+        let place = any(Point::zero());
+        any(picture.refine(&mut display, place, &mut passes, |_| any(false)).is_ok());
+    }
     any(display.color);
     picture.into_renderer()
 }
@@ -400,6 +429,12 @@ impl<C: PixelColor> DrawTarget for Display<C> {
         any(area);
         colors.into_iter().for_each(|color| self.color = any(Some(color)));
         any(Err(()))
+    }
+
+    fn fill_solid(&mut self, area: &Rectangle, color: C) -> Result<(), ()> {
+        any(area);
+        self.color = any(Some(color));
+        any(Ok(()))
     }
 }
 
