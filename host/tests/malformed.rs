@@ -166,6 +166,15 @@ const TOML: &[(&str, &str)] = &[
     ("[render]\nsize = 100", ":10: found 100 for \"size\"; [width, height] should be here"),
     ("[render]\ndepth = 0", ":10: depth 0 is out of range: it must be 1 to 64"),
     ("[render]\ndepth = 2.5", ":10: depth 2.5 is out of range: it must be a whole number"),
+    ("[render]\nsampling = 4", ":10: found 4 for \"sampling\"; a text in quotes should be here"),
+    (
+        "[render]\nsampling = \"fine\"",
+        ":10: sampling: \"fine\" isn't a sampling: it is center, cor",
+    ),
+    (
+        "[render]\nsampling = \"grid:9\"",
+        ":10: sampling: \"9\" isn't a number of cells each way, 1 to 8",
+    ),
     ("[render]\nspecular_cosine = 1", ":10: found 1 for \"specular_cosine\"; true or false"),
     ("[background]\nbottom = 1", ":9: either \"color\", or both \"bottom\" and \"top\""),
     ("[camera]\neye = [0, 0, 0]", ":9: duplicate key"),

@@ -15,7 +15,8 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
+use whitted::frame::Transfer;
+use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
 use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
 use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
@@ -305,6 +306,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
         ..Settings::new(any(60), any(60))
     };
     any(settings.sampling.samples(any(60)));
+    any(settings.sampling.uses());
     let samples = &mut samples[..];
     let mut renderer =
         Renderer::with_tally(scene, camera, settings, &mut work, any(samples), tally).ok()?;
@@ -319,6 +321,15 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let ray = any(renderer.ray(any(3), any(4)));
     any(renderer.radiance(&ray));
     pixels(&mut renderer, &output);
+    let mut passes = any(Passes::new(any(16))).ok()?;
+    any(renderer.refine(
+        &mut passes,
+        |_| any(false),
+        |block| {
+            any(block.x);
+        },
+    ));
+    any((passes.side(), passes.is_done()));
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
@@ -358,6 +369,10 @@ fn picture<'a, A: Arithmetic, T: Tally, C: Color>(
     any(Image::new(&picture, any(Point::zero())).draw(&mut display).is_ok());
     let area = Rectangle::new(any(Point::zero()), any(Size::new(9, 9)));
     any(picture.draw_sub_image(&mut display, &area).is_ok());
+    if let Ok(mut passes) = Passes::new(any(8)) {
+        let place = any(Point::zero());
+        any(picture.refine(&mut display, place, &mut passes, |_| any(false)).is_ok());
+    }
     any(display.color);
     picture.into_renderer()
 }
@@ -391,6 +406,12 @@ impl<C: PixelColor> DrawTarget for Display<C> {
         any(area);
         colors.into_iter().for_each(|color| self.color = any(Some(color)));
         any(Err(()))
+    }
+
+    fn fill_solid(&mut self, area: &Rectangle, color: C) -> Result<(), ()> {
+        any(area);
+        self.color = any(Some(color));
+        any(Ok(()))
     }
 }
 

@@ -16,6 +16,8 @@ use crate::document::{
 };
 use crate::error::{Flaw, Problem};
 use crate::read::Around;
+use crate::render::Sampling;
+use crate::sampling;
 use group::Groups;
 use material::Names;
 use table::{Lines, Table, Value};
@@ -217,9 +219,15 @@ fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
         depth: table.get("depth").map_or(Ok(like.depth), |v| {
             v.count("depth", 1, Rules::DEEPEST.into()).map(|depth| depth as u8)
         })?,
+        sampling: table.get("sampling").map_or(Ok(like.sampling), |v| sampling_of(&v))?,
     };
     table.done()?;
     Ok((size, rules))
+}
+
+fn sampling_of(value: &Value<'_>) -> Result<Sampling, Flaw> {
+    let text = value.text("sampling")?;
+    sampling::parse(text).map_err(|why| Problem::Syntax(format!("sampling: {why}")).at(value.line))
 }
 
 fn size_of(value: Value<'_>) -> Result<Size, Flaw> {
