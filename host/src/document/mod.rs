@@ -17,6 +17,7 @@ mod place;
 mod rules;
 mod shape;
 mod solid;
+mod texture;
 mod transform;
 mod vector;
 
@@ -29,6 +30,7 @@ pub use place::Misplaced;
 pub use rules::{LightSelection, Rules};
 pub use shape::{Body, Shape};
 pub use solid::{Made, Solid};
+pub use texture::Texture;
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
 
@@ -134,7 +136,7 @@ impl Document {
             let (emission, black) = (light.color, [0.0; 3]);
             indices.push(Some(self.shapes.len()));
             let material = self.materials.len();
-            self.shapes.push(Shape { body, material, line: light.line });
+            self.shapes.push(Shape { body, material, uv: None, line: light.line });
             self.materials.push(Material {
                 name: "light".into(),
                 emission,
