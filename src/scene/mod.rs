@@ -50,7 +50,7 @@ pub(crate) use shapes::with_shape;
 pub use transform::Transform;
 
 pub(crate) use area_light::Form;
-pub(crate) use light::Incident;
+pub(crate) use light::{Incident, Source};
 
 use crate::gather::Indirect;
 use crate::math::{Arithmetic, Rgb};

@@ -80,6 +80,8 @@ pub const SOLIDS: u64 = 1 << 41;
 pub const CAPS: u64 = 1 << 42;
 /// [`Indirect::Cache`](crate::gather::Indirect::Cache).
 pub const IRRADIANCE_CACHE: u64 = 1 << 48;
+/// [`Indirect::VirtualLights`](crate::gather::Indirect::VirtualLights).
+pub const VIRTUAL_LIGHTS: u64 = 1 << 49;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -110,7 +112,7 @@ pub(crate) const fn has_others(uses: u64) -> bool {
 /// Whether there may be diffuse interreflection.
 #[inline(always)]
 pub(crate) const fn has_indirect(uses: u64) -> bool {
-    uses & IRRADIANCE_CACHE != 0
+    uses & (IRRADIANCE_CACHE | VIRTUAL_LIGHTS) != 0
 }
 
 /// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.

@@ -18,7 +18,8 @@ use embedded_graphics::primitives::Rectangle;
 use whitted::frame::Transfer;
 use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
-use whitted::gather::{Record, RecordSpec};
+use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
+use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
@@ -261,7 +262,20 @@ macro_rules! arithmetic {
             let filled = gatherer.ok()?.fill(&camera, size, &mut pool, &mut drafts).ok()?;
             any((filled.is_full(), filled.records().len()));
             let cache = IrradianceCache::<$a>::try_new(any(filled.records()), any(0.25)).ok()?;
-            let scene = any(scene.with_indirect(any(Indirect::Cache(cache))).ok()?);
+            let spec = VirtualLightsSpec {
+                bounces: any(2),
+                tile: any(2),
+                nearest: any(0.5),
+                center: any([0.0; 3]),
+                radius: any(9.0),
+            };
+            let settings = any(VirtualLightsSettings::<$a>::try_new(&spec).ok()?);
+            let mut pool = any([VirtualLight::<$a>::NONE; 16]);
+            let laid = VirtualLights::lay(&scene, &settings, &mut pool, &mut memory, &mut counts);
+            let laid = any(VirtualLights::new(any(laid.lights()), &settings));
+            let indirect = any([Indirect::Cache(cache), Indirect::VirtualLights(laid)]);
+            any(indirect[0].uses());
+            let scene = any(scene.with_indirect(any(indirect[1])).ok()?);
             let camera = Camera::<$a>::try_from_vectors(
                 any([0.0; 3]),
                 any([1.0; 3]),
