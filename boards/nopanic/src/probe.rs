@@ -22,10 +22,12 @@ use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
 use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
+use whitted::scene::{Absorption, Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
 use whitted::scene::{Group, Instance, Light, LightSpec};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
+use whitted::scene::{TriangleUv, Wrap};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
 use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
@@ -59,6 +61,10 @@ macro_rules! arithmetic {
                 emission: any([0.1; 3]),
                 shadow: any(Shadow::Filtered),
                 pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
+                texture: any(Some(0)),
+                bump: any(Some(1)),
+                fresnel: any(true),
+                absorption: any(Some(0)),
             };
             let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
             let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
@@ -117,6 +123,19 @@ macro_rules! arithmetic {
                 samples: any([2, 9]),
                 body: any(Some(1)),
             };
+            let image = Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
+            let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
+            any(image.size());
+            let texture = TextureSpec {
+                mapping: any(Mapping::Spherical),
+                other: any(Some(1)),
+                height: any(0.5),
+                ..TextureSpec::of(any(Pattern::Image(image)))
+            };
+            let textures = any([Texture::<$a>::try_new(&any(texture)).ok()?; 2]);
+            let uvs = any([TriangleUv::try_new(any([[0.5; 2]; 3])).ok()?; 4]);
+            let absorptions =
+                any([Absorption::<$a>::try_new(any([0.5; 3]), any([0.1; 3])).ok()?; 1]);
             let (corner, edge) = (any([1.0; 3]), any([1.0; 3]));
             let area_lights = any([
                 AreaLight::<$a>::try_new(&spec(Area::Rectangle { corner, u: edge, v: edge }))
@@ -147,6 +166,7 @@ macro_rules! arithmetic {
                 smooth_triangles: &smooth,
                 polygons: &polygons,
                 edges: &edges,
+                uvs: &uvs,
                 cuboids: &cuboids,
                 discs: &discs,
                 cylinders: &cylinders,
@@ -175,6 +195,7 @@ macro_rules! arithmetic {
                 smooth_triangles: any(&smooth),
                 polygons: any(&polygons),
                 edges: any(&edges),
+                uvs: any(&uvs),
                 cuboids: any(&cuboids),
                 discs: any(&discs),
                 cylinders: any(&cylinders),
@@ -184,6 +205,8 @@ macro_rules! arithmetic {
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
+                textures: any(&textures),
+                absorptions: any(&absorptions),
                 lights: any(&lights),
                 area_lights: any(&area_lights),
                 light_corners: any(&fan),

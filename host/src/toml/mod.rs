@@ -8,6 +8,7 @@ mod material;
 mod place;
 mod solid;
 mod table;
+mod texture;
 
 use toml::de::DeTable;
 
@@ -52,7 +53,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
     };
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
-    let mut names = Names::read(&tables(&scene, "material")?)?;
+    let mut names = Names::read(&tables(&scene, "material")?, around)?;
     let lights = tables(&scene, "light")?;
     let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
     let mut document = Document {
@@ -122,6 +123,7 @@ fn copies(
     material: usize,
     shapes: &mut Vec<Shape>,
 ) -> Result<(), Flaw> {
+    let uv = if table.name == "triangle" { body::uv(table)? } else { None };
     let copies = place::read(table)?;
     table.done()?;
     for body in bodies {
@@ -136,7 +138,8 @@ fn copies(
                     return Err(wrong(why));
                 }
                 within(&body, table.line)?;
-                shapes.push(Shape { body, material, line: table.line });
+                let uv = Shape::uv_placed(uv, by.mirrors());
+                shapes.push(Shape { body, material, uv, line: table.line });
             }
         }
     }
