@@ -1,6 +1,7 @@
 //! The renderer: rows of radiance, in any order, in the caller's memory.
 
 use super::sample::Watch;
+use super::sparse::Sparse;
 use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, has};
@@ -39,8 +40,9 @@ pub struct Renderer<
     /// What the sampling remembers, if it does.
     samples: &'a mut [Sample<A>],
     pub(super) remembered: Option<Remembered>,
-    /// Of sparse sampling: for which pair of rows the middles of the smallest blocks are remembered.
-    pub(super) middles: Option<Remembered>,
+    /// What lies where no sample does.
+    none: Sample<A>,
+    pub(super) sparse: Sparse<A>,
     /// Of adaptive sampling: whether the pixel's corners differ, from the pixel to the right (bit 0) to
     /// the one to the left (bit 2).
     pub(super) flags: u8,
@@ -104,7 +106,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             work,
             samples,
             remembered: None,
-            middles: None,
+            none: Sample::NONE,
+            sparse: Sparse::new(width, sampling.side()),
             flags: 0,
             tally,
         })
@@ -203,10 +206,16 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         Sample::new(radiance, watch.signature)
     }
 
+    /// A remembered sample, where it lies.
+    #[inline(always)]
+    pub(super) fn at(&self, index: usize) -> &Sample<A> {
+        self.samples.get(index).unwrap_or(&self.none)
+    }
+
     /// A remembered sample.
     #[inline(always)]
     pub(super) fn remembered(&self, index: usize) -> Sample<A> {
-        self.samples.get(index).copied().unwrap_or(Sample::NONE)
+        *self.at(index)
     }
 
     /// Remembers a sample.
@@ -230,8 +239,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             Sampling::Adaptive { depth, threshold } if has(USES, uses::ADAPTIVE) => {
                 self.adaptive(x, y, columns, depth, threshold)
             }
-            Sampling::Sparse { side, threshold } if has(USES, uses::SPARSE) => {
-                self.sparse(x, y, columns, side, threshold)
+            Sampling::Sparse { threshold, .. } if has(USES, uses::SPARSE) => {
+                match self.sparse.goes_on(x, columns) {
+                    Some(radiance) => radiance,
+                    None => self.sparse(x, y, columns, threshold),
+                }
             }
             // The renderer isn't made for a sampling that the scene isn't tailored to.
             _ => self.trace(&self.view.row(y, 128), x, 128),
