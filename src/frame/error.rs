@@ -19,7 +19,7 @@ pub enum FrameError {
         /// How many each way were asked for.
         side: u8,
     },
-    /// Adaptive sampling halves a pixel 1 to 4 times.
+    /// Adaptive sampling halves a pixel 1 to 3 times.
     Halvings {
         /// How often was asked for.
         depth: u8,
@@ -34,8 +34,9 @@ pub enum FrameError {
         /// What was asked for.
         side: u8,
     },
-    /// The scene is tailored, and not to this sampling: what
-    /// [`Sampling::uses`](super::Sampling::uses) says has to be among its uses.
+    /// The scene is tailored, and not to this sampling or to leaving terms out: what
+    /// [`Sampling::uses`](super::Sampling::uses) says, or [`uses::TERMS`](crate::scene::uses::TERMS),
+    /// has to be among its uses.
     Tailored,
     /// The sampling needs to remember more than the slice holds.
     Samples {
@@ -55,7 +56,7 @@ impl fmt::Display for FrameError {
                 write!(f, "a pixel can be cut into 1 to 8 cells each way, not {side}")
             }
             Self::Halvings { depth } => {
-                write!(f, "adaptive sampling halves a pixel 1 to 4 times, not {depth}")
+                write!(f, "adaptive sampling halves a pixel 1 to 3 times, not {depth}")
             }
             Self::Block { side } => {
                 write!(f, "a block of sparse sampling has a side of 2, 4, 8 or 16, not {side}")
@@ -63,9 +64,9 @@ impl fmt::Display for FrameError {
             Self::Pass { side } => {
                 write!(f, "the first pass has blocks of 1, 2, 4, 8, 16, 32, 64 or 128, not {side}")
             }
-            Self::Tailored => {
-                f.write_str("the scene is tailored without this sampling: add Sampling::uses()")
-            }
+            Self::Tailored => f.write_str(
+                "the scene is tailored without this: add Sampling::uses() or uses::TERMS",
+            ),
             Self::Samples { needed } => {
                 write!(f, "this sampling must remember {needed} samples")
             }
