@@ -6,6 +6,7 @@
 pub mod bake;
 pub mod document;
 pub mod error;
+pub mod indirect;
 mod mesh;
 pub mod need;
 pub mod nff;

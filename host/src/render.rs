@@ -12,8 +12,9 @@ use whitted::tally::Counts;
 use whitted::trace::{Tracer, Work};
 
 use crate::bake::{Baked, Construct};
-use crate::document::{Rules, Size};
+use crate::document::{Indirect, Rules, Size};
 use crate::error::{Flaw, Problem};
+use crate::indirect::Pools;
 use crate::picture::Picture;
 use crate::show::{self, Show};
 
@@ -29,6 +30,8 @@ pub struct Settings {
     pub depth: u8,
     /// Where in a pixel rays go.
     pub sampling: Sampling,
+    /// The light that surfaces send each other.
+    pub indirect: Option<Indirect>,
     /// What the picture shows instead of the scene.
     pub show: Option<Show>,
     /// How many threads trace; the picture and the counts are the same for any number.
@@ -68,7 +71,16 @@ pub fn render<A: Construct>(
     progress: impl FnMut(u32),
 ) -> Result<Rendered, Flaw> {
     let camera = baked.camera(settings.size)?;
-    baked.with_scene(|scene| render_scene(scene, &camera, settings, progress))?
+    baked.with_scene(|scene| {
+        let start = Instant::now();
+        let (mut pools, mut made) = (Pools::default(), Counts::default());
+        let wanted = settings.indirect.filter(|_| settings.show.is_none());
+        let lit = pools.light(baked, scene, &camera, settings.size, wanted, &mut made)?;
+        let mut rendered = render_scene(&lit, &camera, settings, progress)?;
+        rendered.counts += made;
+        rendered.time = start.elapsed();
+        Ok(rendered)
+    })?
 }
 
 fn render_scene<A: Construct>(
