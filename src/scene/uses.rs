@@ -67,6 +67,14 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// [`MaterialSpec::texture`](super::MaterialSpec::texture).
+pub const TEXTURES: u64 = 1 << 48;
+/// [`MaterialSpec::bump`](super::MaterialSpec::bump).
+pub const BUMPS: u64 = 1 << 49;
+/// [`MaterialSpec::fresnel`](super::MaterialSpec::fresnel).
+pub const FRESNEL: u64 = 1 << 50;
+/// [`MaterialSpec::absorption`](super::MaterialSpec::absorption).
+pub const ABSORPTION: u64 = 1 << 51;
 /// Lights with an area.
 pub const AREA_LIGHTS: u64 = 1 << 22;
 /// Materials that emit.
@@ -191,6 +199,10 @@ impl<A: Arithmetic> Parts<'_, A> {
         while i < self.materials.len() {
             let material = &self.materials[i];
             uses |= bit(material.pattern.is_some(), PATTERNS)
+                | bit(material.texture().is_some(), TEXTURES)
+                | bit(material.bump().is_some(), BUMPS)
+                | bit(material.fresnel, FRESNEL)
+                | bit(material.absorption().is_some(), ABSORPTION)
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)

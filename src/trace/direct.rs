@@ -49,6 +49,13 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         if cosine <= A::NO_WEIGHT {
             continue;
         }
+        // A dent doesn't see a light that lies below the surface.
+        if has(USES, uses::BUMPS)
+            && at.material.bump().is_some()
+            && A::cosine(&at.surface.geometric, &direction) <= A::NO_WEIGHT
+        {
+            continue;
+        }
         at.shadow.direction = direction;
         tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
         let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {
