@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use whitted::trace::{Paths, Terms};
 use whitted_host::document::{Cache, Document, Indirect, Size, VirtualLights};
 use whitted_host::error::SceneError;
 use whitted_host::show::Show;
@@ -117,6 +118,11 @@ impl From<ShowName> for Show {
             ShowName::Octree => Self::Octree,
         }
     }
+}
+
+/// The paths of light that pictures of a scene cover. Interreflection isn't there to show.
+fn covered(document: &Document, depth: u8) -> Paths {
+    document.rules.terms.without(Terms::INDIRECT).paths(depth)
 }
 
 fn size(text: &str) -> Result<Size, String> {
