@@ -84,6 +84,8 @@ pub struct Material<A: Arithmetic> {
     pub(crate) shines: bool,
     pub(crate) reflects: bool,
     pub(crate) transmits: bool,
+    /// Whether a coefficient of reflection or transmission isn't grey.
+    pub(crate) colored: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -110,6 +112,10 @@ impl<A: Arithmetic> Pattern<A> {
 
 const fn any(c: &Rgb<f64>) -> bool {
     c[0] > 0.0 || c[1] > 0.0 || c[2] > 0.0
+}
+
+const fn colored(c: &Rgb<f64>) -> bool {
+    c[1] != c[0] || c[2] != c[0]
 }
 
 const fn at_most_one(c: &Rgb<f64>) -> bool {
@@ -187,6 +193,7 @@ for_each_arithmetic! {
                 shines: any(&spec.specular),
                 reflects: any(&spec.reflection),
                 transmits: any(&spec.transmission),
+                colored: colored(&spec.reflection) || colored(&spec.transmission),
             })
         }
     }

@@ -19,7 +19,7 @@
 
 use super::light::Source;
 use super::{Background, Falloff, Instance, Parts, Shadow, Shapes};
-use crate::math::Arithmetic;
+use crate::math::{Arithmetic, Rgb};
 
 /// Anything.
 pub const ALL: u64 = u64::MAX;
@@ -71,6 +71,27 @@ pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
 
+// What of the things above is of the simplest kind is cheaper; these say that some isn't.
+
+/// More than one plane.
+pub const SEVERAL_PLANES: u64 = 1 << 48;
+/// A plane across the x axis, its normal pointing along it.
+pub const PLANES_ACROSS_X: u64 = 1 << 49;
+/// A plane across the y axis, its normal pointing along it.
+pub const PLANES_ACROSS_Y: u64 = 1 << 50;
+/// A plane across the z axis, its normal pointing along it.
+pub const PLANES_ACROSS_Z: u64 = 1 << 51;
+/// Another plane.
+pub const SLOPING_PLANES: u64 = 1 << 52;
+/// More than one light.
+pub const SEVERAL_LIGHTS: u64 = 1 << 53;
+/// A light that isn't white.
+pub const COLORED_LIGHTS: u64 = 1 << 54;
+/// A reflection or transmission that isn't grey.
+pub const COLORED_RAYS: u64 = 1 << 55;
+/// Spheres that show their inside alone.
+pub const INSIDES: u64 = 1 << 56;
+
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
 
@@ -108,6 +129,25 @@ pub(crate) const fn has_signatures(uses: u64) -> bool {
     uses & (ADAPTIVE | SPARSE) != 0
 }
 
+/// The coefficients of a ray, of which the first stands for all where none are coloured.
+#[inline(always)]
+pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A::Weight> {
+    if has(USES, COLORED_RAYS) { *k } else { [k[0]; 3] }
+}
+
+/// The slice, of which only the first counts where there is no more than one: a loop over it is
+/// none then.
+#[inline(always)]
+pub(crate) fn first_of<T>(all: &[T], several: bool) -> &[T] {
+    if several {
+        return all;
+    }
+    match all.first() {
+        Some(first) => core::slice::from_ref(first),
+        None => &[],
+    }
+}
+
 const fn bit(wanted: bool, what: u64) -> u64 {
     if wanted { what } else { 0 }
 }
@@ -123,6 +163,18 @@ impl<A: Arithmetic> Shapes<'_, A> {
             | bit(!self.cylinders.is_empty(), CYLINDERS)
             | bit(!self.cones.is_empty(), CONES)
             | bit(self.tree.is_some(), TREE)
+            | self.uses_of_spheres()
+    }
+
+    const fn uses_of_spheres(&self) -> u64 {
+        let mut i = 0;
+        while i < self.spheres.len() {
+            if self.spheres[i].material_id().inside_only() {
+                return INSIDES;
+            }
+            i += 1;
+        }
+        0
     }
 }
 
@@ -138,11 +190,23 @@ pub(crate) const fn of_instances<A: Arithmetic>(instances: &[Instance<'_, A>]) -
 }
 
 impl<A: Arithmetic> Parts<'_, A> {
+    const fn uses_of_planes(&self) -> u64 {
+        let mut uses = bit(!self.planes.is_empty(), PLANES);
+        uses |= bit(self.planes.len() > 1, SEVERAL_PLANES);
+        let mut i = 0;
+        while i < self.planes.len() {
+            uses |= self.planes[i].uses();
+            i += 1;
+        }
+        uses
+    }
+
     /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
     pub const fn uses(&self) -> u64 {
         let mut uses = self.shapes().uses()
             | of_instances(self.instances)
-            | bit(!self.planes.is_empty(), PLANES)
+            | self.uses_of_planes()
+            | bit(self.lights.len() > 1, SEVERAL_LIGHTS)
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)
@@ -154,6 +218,7 @@ impl<A: Arithmetic> Parts<'_, A> {
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)
+                | bit(material.colored, COLORED_RAYS)
                 | bit(!matches!(material.shadow, Shadow::Opaque), PASSING_SHADOWS);
             i += 1;
         }
@@ -169,6 +234,7 @@ impl<A: Arithmetic> Parts<'_, A> {
                 Falloff::InverseSquare => INVERSE_SQUARE,
                 Falloff::None => NO_FALLOFF,
             };
+            uses |= bit(light.colored, COLORED_LIGHTS);
             i += 1;
         }
         uses

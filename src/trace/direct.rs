@@ -3,7 +3,7 @@
 use super::visible::visible;
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::octree::WalkStack;
-use crate::scene::uses::{self, has};
+use crate::scene::uses::{self, first_of, grey, has};
 use crate::scene::{Incident, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
@@ -32,7 +32,8 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
 ) {
     let rules = &scene.parts.rules;
     let mut index = 0;
-    for light in scene.parts.lights {
+    let weight = grey::<A, USES>(at.weight);
+    for light in first_of(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS)) {
         let number = index;
         index += 1;
         let Some(Incident { direction, distance, irradiance }) =
@@ -50,8 +51,9 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
             tally.shadowed(number, at.depth);
             continue;
         };
-        let diffuse = at.material.diffuse;
-        let mut factor = diffuse.map(|k| A::weight(k, cosine));
+        // The weight down the tree goes to the cosines: it mostly is the same for all channels.
+        let seen = weight.map(|w| A::weight(w, cosine));
+        let mut factor = rgb(&at.material.diffuse, &seen, A::weight);
         if has(USES, uses::HIGHLIGHTS) && at.material.shines {
             // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
             let lobe = A::cosine(at.mirror, &direction);
@@ -60,11 +62,14 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
                 if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
                     highlight = A::weight(highlight, cosine);
                 }
-                factor = rgb(&factor, &at.material.specular, |f, k| f + A::weight(k, highlight));
+                let seen = weight.map(|w| A::weight(w, highlight));
+                let shine = rgb(&at.material.specular, &seen, A::weight);
+                factor = rgb(&factor, &shine, |a, b| a + b);
             }
         }
-        let factor = rgb(&factor, &light.color, A::weight);
-        let factor = rgb(&factor, at.weight, A::weight);
+        if has(USES, uses::COLORED_LIGHTS) {
+            factor = rgb(&factor, &light.color, A::weight);
+        }
         let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
         let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
         let radiance = factor.map(|f| A::dim(irradiance, f));

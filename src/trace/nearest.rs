@@ -3,9 +3,9 @@
 use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
-use crate::scene::uses::{self, has, has_others};
+use crate::scene::uses::{self, first_of, has, has_others};
 use crate::scene::{Scene, Shapes};
-use crate::shape::{Meeting, Ray};
+use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::Tally;
 use core::ops::Range;
 
@@ -148,21 +148,35 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.first_plane;
-    for plane in planes {
+    for plane in first_of(planes, has(USES, uses::SEVERAL_PLANES)) {
         tally.test();
-        best.take(meet(plane, id, ray, &coarse, best.distance), id);
+        if id != ray.leaving.shape {
+            best.take(plane.meet::<USES>(ray, best.distance), id);
+        }
         id += 1;
     }
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
-        let mut id = 0;
-        for sphere in shapes.spheres {
+        // Backwards: where two are met at the same distance the last one tested counts, which
+        // needs no comparison of numbers.
+        let Leaving { shape: left, inwards, .. } = ray.leaving;
+        let (outwards, inwards) = if inwards { (u32::MAX, left) } else { (left, u32::MAX) };
+        let count = shapes.spheres.len() as u32;
+        let mut id = count;
+        for sphere in shapes.spheres.iter().rev() {
+            id = id.wrapping_sub(1);
             tally.test();
-            best.take(meet(sphere, id, ray, &coarse, best.distance), id);
-            id += 1;
+            if id == outwards {
+                continue;
+            }
+            let from = id == inwards;
+            let met = sphere.meet::<USES>(ray, &coarse, from, best.distance);
+            if let Some(Meeting { distance, detail }) = met {
+                best = Hit { distance, detail, shape: id };
+            }
         }
-        if has_others(USES) && id != scene.bounded {
-            best = search::<A, T, USES>(shapes, id..scene.bounded, *ray, best, walk, tally);
+        if has_others(USES) && count != scene.bounded {
+            best = search::<A, T, USES>(shapes, count..scene.bounded, *ray, best, walk, tally);
         }
     } else {
         best = search::<A, T, USES>(shapes, 0..0, *ray, best, walk, tally);

@@ -11,7 +11,7 @@ use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::WalkStack;
 use crate::scene::Scene;
-use crate::scene::uses::{self, has};
+use crate::scene::uses::{self, grey, has};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -80,7 +80,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
-                    let radiance = rgb(&background, &path.weight, A::dim);
+                    let weight = grey::<A, USES>(&path.weight);
+                    let radiance = rgb(&background, &weight, A::dim);
                     tally.term::<A>(Term::Background, &radiance);
                     sum = rgb(&sum, &radiance, A::gather);
                     false
@@ -136,8 +137,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         };
 
         let ambient = &scene.parts.ambient.0;
+        let above = grey::<A, USES>(&path.weight);
         let radiance =
-            rgb(&rgb(&material.ambient, &path.weight, A::weight), ambient, |w, e| A::dim(e, w));
+            rgb(&rgb(&material.ambient, &above, A::weight), ambient, |w, e| A::dim(e, w));
         tally.term::<A>(Term::Ambient, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 
@@ -162,7 +164,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         }
         let rules = &scene.parts.rules;
         let depth = path.depth + 1;
-        let mut reflected = material.reflection;
+        let mut reflected = grey::<A, USES>(&material.reflection);
+        let passed = grey::<A, USES>(&material.transmission);
         let mut transmitted = None;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
         if glass {
@@ -170,7 +173,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             let direction = &path.ray.direction;
             match A::refract(direction, &surface.normal, surface.cosine, eta) {
                 Some(direction) => {
-                    let mut weight = rgb(&material.transmission, &path.weight, A::weight);
+                    let mut weight = rgb(&passed, &above, A::weight);
                     if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                         let cosine = -A::cosine(&surface.normal, &direction);
                         weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
@@ -187,7 +190,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 }
                 // Nothing gets through: the mirror ray carries both, unless the scene says not.
                 None if !rules.lossy => {
-                    reflected = rgb(&reflected, &material.transmission, |a, b| a + b);
+                    reflected = rgb(&reflected, &passed, |a, b| a + b);
                 }
                 None => {}
             }
@@ -196,14 +199,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             || (glass && largest(&reflected) > A::NO_WEIGHT)
             || (glass && has(USES, uses::TRANSMITTERS_REFLECT) && rules.transmitters_reflect)
         {
-            let mut weight = rgb(&reflected, &path.weight, A::weight);
+            let mut weight = rgb(&reflected, &above, A::weight);
             if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                 let cosine = A::weight_of(surface.cosine);
                 weight = weight.map(|w| A::weight(w, cosine));
             }
             // An interpolated normal can mirror a ray into the surface.
-            let above = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
-            if largest(&weight) >= rules.cutoff && above {
+            let outwards = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
+            if largest(&weight) >= rules.cutoff && outwards {
                 *path = Path { ray: outside, weight, depth, kind: RayKind::Reflection };
                 return (true, transmitted);
             }

@@ -1,12 +1,12 @@
 //! What a shadow ray finds between a point and a light.
 
-use super::meet::{meet, meet_any, surface_at};
+use super::meet::{meet_any, surface_at};
 use super::nearest::nearest;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
-use crate::scene::uses::{self, has, has_others};
+use crate::scene::uses::{self, first_of, has, has_others};
 use crate::scene::{Scene, Shadow, Shapes};
-use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
+use crate::shape::{Leaving, Meeting, Ray, Sphere};
 use crate::tally::{RayKind, Tally};
 use core::ops::Range;
 
@@ -25,7 +25,7 @@ struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
 
 /// Whether a sphere blocks the ray.
 #[inline(always)]
-fn blocks<A: Arithmetic>(
+fn blocks<A: Arithmetic, const USES: u64>(
     sphere: &Sphere<A>,
     id: u32,
     ray: &Ray<A>,
@@ -33,7 +33,7 @@ fn blocks<A: Arithmetic>(
     limit: A::Length,
 ) -> bool {
     let left = id == ray.leaving.shape;
-    (ray.leaving.inwards || !left) && sphere.occludes(ray, coarse, left, limit)
+    (ray.leaving.inwards || !left) && sphere.blocks::<USES>(ray, coarse, left, limit)
 }
 
 impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
@@ -65,7 +65,7 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
         match self.shapes.spheres.get(id as usize) {
             Some(sphere) => {
                 self.tally.test();
-                let blocked = blocks(sphere, id, self.ray, &self.coarse, self.limit);
+                let blocked = blocks::<A, USES>(sphere, id, self.ray, &self.coarse, self.limit);
                 self.note(blocked, id)
             }
             None => self.test_any(id),
@@ -143,7 +143,7 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         let mut id = 0;
         for sphere in shapes.spheres {
             tally.test();
-            if blocks(sphere, id, ray, &coarse, limit) {
+            if blocks::<A, USES>(sphere, id, ray, &coarse, limit) {
                 return Some(id);
             }
             id += 1;
@@ -164,9 +164,10 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     }
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.first_plane;
-    for plane in planes {
+    for plane in first_of(planes, has(USES, uses::SEVERAL_PLANES)) {
         tally.test();
-        if meet(plane, id, ray, &coarse, limit).is_some_and(|m| m.distance < limit) {
+        let left = id == ray.leaving.shape;
+        if !left && plane.meet::<USES>(ray, limit).is_some_and(|m| m.distance < limit) {
             return Some(id);
         }
         id += 1;

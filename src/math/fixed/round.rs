@@ -1,6 +1,6 @@
 //! Spheres and what is round: squares in the exponent of the radius.
 
-use super::kernel::{length_times_unit, project, shift, units};
+use super::kernel::{length_times_unit, shift};
 use super::{COARSE_SHIFT, FixedCoarse, FixedRadius, Unit};
 use ::fixed::types::I16F16;
 
@@ -27,14 +27,18 @@ impl FixedRadius {
 /// See `Arithmetic::settle`.
 #[inline(always)]
 pub(super) fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
-    // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
-    let e = (1i32 << 17).wrapping_sub(project(&units(n), &units(n)));
-    let half = e >> 1;
-    let off = length_times_unit(r.bits(), half);
+    // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2. Squares of Q17 are Q34,
+    // where 1 is a multiple of 2³²: the wrapping sum of the squares *is* −e, for |e| < ⅛, which
+    // only spheres far smaller than a pixel exceed.
+    let square = |n: Unit| n.to_bits().wrapping_mul(n.to_bits());
+    let e_q34 = square(n[0]).wrapping_add(square(n[1])).wrapping_add(square(n[2])).wrapping_neg();
+    let half = e_q34 >> 18;
+    // 16 bits times 13; a position is off by far less than a unit, so that 18 bits do.
+    let off = (r.mantissa as i32).wrapping_mul(half) >> (17 - (r.shift & 15));
     for (n, p) in n.iter_mut().zip(p) {
         let unit = n.to_bits();
-        *p = I16F16::from_bits(p.to_bits().wrapping_add(length_times_unit(off, unit)));
-        *n = Unit::from_bits(unit.wrapping_add(length_times_unit(unit, half)));
+        *p = I16F16::from_bits(p.to_bits().wrapping_add(off.wrapping_mul(unit >> 4) >> 13));
+        *n = Unit::from_bits(unit.wrapping_add(unit.wrapping_mul(half) >> 17));
     }
 }
 
