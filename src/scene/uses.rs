@@ -67,6 +67,10 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// Lights with an area.
+pub const AREA_LIGHTS: u64 = 1 << 22;
+/// Materials that emit.
+pub const EMISSION: u64 = 1 << 23;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
@@ -135,17 +139,21 @@ pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A:
     if has(USES, COLORED_RAYS) { *k } else { [k[0]; 3] }
 }
 
-/// The slice, of which only the first counts where there is no more than one: a loop over it is
-/// none then.
+/// Does something with all of a slice, or with the first where there is no more: no loop is left
+/// then.
 #[inline(always)]
-pub(crate) fn first_of<T>(all: &[T], several: bool) -> &[T] {
+pub(crate) fn each<T>(all: &[T], several: bool, mut act: impl FnMut(&T)) {
     if several {
-        return all;
+        all.iter().for_each(act);
+    } else if let Some(first) = all.first() {
+        act(first);
     }
-    match all.first() {
-        Some(first) => core::slice::from_ref(first),
-        None => &[],
-    }
+}
+
+/// Whether anything is random about rays.
+#[inline(always)]
+pub(crate) const fn has_random(uses: u64) -> bool {
+    has(uses, AREA_LIGHTS)
 }
 
 const fn bit(wanted: bool, what: u64) -> u64 {
@@ -210,7 +218,8 @@ impl<A: Arithmetic> Parts<'_, A> {
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)
-            | bit(self.rules.transmitters_reflect, TRANSMITTERS_REFLECT);
+            | bit(self.rules.transmitters_reflect, TRANSMITTERS_REFLECT)
+            | bit(!self.area_lights.is_empty(), AREA_LIGHTS);
         let mut i = 0;
         while i < self.materials.len() {
             let material = &self.materials[i];
@@ -219,6 +228,7 @@ impl<A: Arithmetic> Parts<'_, A> {
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)
                 | bit(material.colored, COLORED_RAYS)
+                | bit(material.emits, EMISSION)
                 | bit(!matches!(material.shadow, Shadow::Opaque), PASSING_SHADOWS);
             i += 1;
         }

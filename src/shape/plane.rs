@@ -5,7 +5,7 @@
 //! height is a difference of two numbers and the cosine a component of the direction.
 
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
-use super::{ok_or_panic, some_or, turned};
+use super::{meets_plane, ok_or_panic, some_or, turned};
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic, unit_f64};
 use crate::scene::uses;
 
@@ -105,23 +105,8 @@ impl<A: Arithmetic> Plane<A> {
         } else {
             (A::project(&ray.origin, &self.normal), A::dot(&ray.direction, &self.normal))
         };
-        let height = height - self.offset;
-        let distance = if height > A::NO_LENGTH {
-            if slope >= A::NO_UNIT {
-                return None;
-            }
-            A::ratio(height, -slope)
-        } else {
-            if slope <= A::NO_UNIT {
-                return None;
-            }
-            A::ratio(-height, slope)
-        };
-        if distance > A::NO_LENGTH && distance <= limit {
-            Some(Meeting { distance, detail: A::NO_LENGTH })
-        } else {
-            None
-        }
+        let (distance, _) = meets_plane::<A>(height - self.offset, -slope, limit)?;
+        Some(Meeting { distance, detail: A::NO_LENGTH })
     }
 
     /// See [`Shape::surface`].

@@ -1,10 +1,11 @@
 //! Direct light: Lambert and Phong for each light that a shadow ray finds visible.
 
+use super::area::{Point, areas};
 use super::visible::visible;
+use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
-use crate::octree::WalkStack;
-use crate::scene::uses::{self, first_of, grey, has};
-use crate::scene::{Incident, Material, Scene};
+use crate::scene::uses::{self, each, grey, has};
+use crate::scene::{Incident, Light, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -19,6 +20,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     /// The product of the coefficients down the tree.
     pub(super) weight: &'s Rgb<A::Weight>,
     pub(super) depth: u8,
+    /// Where random numbers come from: another one for each point that is shaded.
+    pub(super) key: u32,
 }
 
 /// Adds what the point sends back along the ray of each light's direct light.
@@ -27,53 +30,66 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     mut at: Shading<'_, A>,
     sum: &mut Rgb<A::Radiance>,
-    walk: &mut WalkStack<A>,
+    scratch: &mut Scratch<A>,
     tally: &mut T,
 ) {
-    let rules = &scene.parts.rules;
-    let mut index = 0;
-    let weight = grey::<A, USES>(at.weight);
-    for light in first_of(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS)) {
-        let number = index;
-        index += 1;
-        let Some(Incident { direction, distance, irradiance }) =
-            light.at::<USES>(&at.shadow.origin)
-        else {
-            continue;
-        };
-        let cosine = A::cosine(&at.surface.normal, &direction);
-        if cosine <= A::NO_WEIGHT {
-            continue;
+    let mut number = 0;
+    each(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), |light| {
+        if let Some(radiance) = of_light(scene, &mut at, light, number, scratch, tally) {
+            *sum = rgb(sum, &radiance, A::gather);
         }
-        at.shadow.direction = direction;
-        tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, walk, tally) else {
-            tally.shadowed(number, at.depth);
-            continue;
-        };
-        // The weight down the tree goes to the cosines: it mostly is the same for all channels.
-        let seen = weight.map(|w| A::weight(w, cosine));
-        let mut factor = rgb(&at.material.diffuse, &seen, A::weight);
-        if has(USES, uses::HIGHLIGHTS) && at.material.shines {
-            // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
-            let lobe = A::cosine(at.mirror, &direction);
-            if lobe > A::NO_WEIGHT {
-                let mut highlight = A::power(lobe, &at.material.shininess);
-                if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
-                    highlight = A::weight(highlight, cosine);
-                }
-                let seen = weight.map(|w| A::weight(w, highlight));
-                let shine = rgb(&at.material.specular, &seen, A::weight);
-                factor = rgb(&factor, &shine, |a, b| a + b);
-            }
-        }
-        if has(USES, uses::COLORED_LIGHTS) {
-            factor = rgb(&factor, &light.color, A::weight);
-        }
-        let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
-        let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
-        let radiance = factor.map(|f| A::dim(irradiance, f));
-        tally.term::<A>(Term::Direct { light: number }, &radiance);
-        *sum = rgb(sum, &radiance, A::gather);
+        number += 1;
+    });
+    if has(USES, uses::AREA_LIGHTS) && !scene.parts.area_lights.is_empty() {
+        *sum = rgb(sum, &areas(scene, Point::of(&at), scratch, tally), A::gather);
     }
+}
+
+/// What one light adds, if it is visible.
+#[inline(always)]
+fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    at: &mut Shading<'_, A>,
+    light: &Light<A>,
+    number: u16,
+    scratch: &mut Scratch<A>,
+    tally: &mut T,
+) -> Option<Rgb<A::Radiance>> {
+    let rules = &scene.parts.rules;
+    let Incident { direction, distance, irradiance } = light.at::<USES>(&at.shadow.origin)?;
+    let cosine = A::cosine(&at.surface.normal, &direction);
+    if cosine <= A::NO_WEIGHT {
+        return None;
+    }
+    at.shadow.direction = direction;
+    tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
+    let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {
+        tally.shadowed(number, at.depth);
+        return None;
+    };
+    // The weight down the tree goes to the cosines: it mostly is the same for all channels.
+    let weight = grey::<A, USES>(at.weight);
+    let seen = weight.map(|w| A::weight(w, cosine));
+    let mut factor = rgb(&at.material.diffuse, &seen, A::weight);
+    if has(USES, uses::HIGHLIGHTS) && at.material.shines {
+        // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
+        let lobe = A::cosine(at.mirror, &direction);
+        if lobe > A::NO_WEIGHT {
+            let mut highlight = A::power(lobe, &at.material.shininess);
+            if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
+                highlight = A::weight(highlight, cosine);
+            }
+            let seen = weight.map(|w| A::weight(w, highlight));
+            let shine = rgb(&at.material.specular, &seen, A::weight);
+            factor = rgb(&factor, &shine, |a, b| a + b);
+        }
+    }
+    if has(USES, uses::COLORED_LIGHTS) {
+        factor = rgb(&factor, &light.color, A::weight);
+    }
+    let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
+    let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
+    let radiance = factor.map(|f| A::dim(irradiance, f));
+    tally.term::<A>(Term::Direct { light: number }, &radiance);
+    Some(radiance)
 }

@@ -3,7 +3,7 @@
 use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
-use crate::scene::uses::{self, first_of, has, has_others};
+use crate::scene::uses::{self, each, has, has_others};
 use crate::scene::{Scene, Shapes};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::Tally;
@@ -148,32 +148,26 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.first_plane;
-    for plane in first_of(planes, has(USES, uses::SEVERAL_PLANES)) {
+    each(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
         tally.test();
         if id != ray.leaving.shape {
             best.take(plane.meet::<USES>(ray, best.distance), id);
         }
         id += 1;
-    }
+    });
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
-        // Backwards: where two are met at the same distance the last one tested counts, which
-        // needs no comparison of numbers.
         let Leaving { shape: left, inwards, .. } = ray.leaving;
         let (outwards, inwards) = if inwards { (u32::MAX, left) } else { (left, u32::MAX) };
         let count = shapes.spheres.len() as u32;
-        let mut id = count;
-        for sphere in shapes.spheres.iter().rev() {
-            id = id.wrapping_sub(1);
+        let mut id = 0;
+        for sphere in shapes.spheres {
             tally.test();
-            if id == outwards {
-                continue;
+            if id != outwards {
+                let from = id == inwards;
+                best.take(sphere.meet::<USES>(ray, &coarse, from, best.distance), id);
             }
-            let from = id == inwards;
-            let met = sphere.meet::<USES>(ray, &coarse, from, best.distance);
-            if let Some(Meeting { distance, detail }) = met {
-                best = Hit { distance, detail, shape: id };
-            }
+            id += 1;
         }
         if has_others(USES) && count != scene.bounded {
             best = search::<A, T, USES>(shapes, count..scene.bounded, *ray, best, walk, tally);

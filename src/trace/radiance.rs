@@ -9,7 +9,6 @@ use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
-use crate::octree::WalkStack;
 use crate::scene::Scene;
 use crate::scene::uses::{self, grey, has};
 use crate::shape::{Leaving, Meeting, Ray};
@@ -38,18 +37,35 @@ impl<A: Arithmetic> Path<A> {
     };
 }
 
+/// From the key of a ray to that of the next: odd, so that all differ.
+const RAY_STEP: u32 = 0xc2b2_ae3d;
+
 /// Traces rays in a scene, to a depth that its memory was made for.
 #[derive(Debug)]
 pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(super) scene: &'a Scene<'a, A, USES>,
     depth: u8,
+    key: u32,
 }
 
 impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth }
+        Self { scene, depth, key: 0 }
+    }
+
+    /// The same for a camera's ray of this [`Row::key`](crate::scene::Row::key): where what is
+    /// random about the ray comes from.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_key(self, key: u32) -> Self {
+        Self { key, ..self }
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_key(&mut self, key: u32) {
+        self.key = key;
     }
 
     /// The nearest hit along a ray, for tools that show more than radiance.
@@ -59,7 +75,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, &mut work.walk, tally)
+        nearest(self.scene, ray, A::FAR, &mut work.scratch.walk, tally)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -74,9 +90,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
+        // A number for each ray of the tree, in the order in which they are traced.
+        let mut key = self.key;
         loop {
+            if uses::has_random(USES) {
+                key = key.wrapping_add(RAY_STEP);
+            }
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
-            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.walk, tally) {
+            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
@@ -88,15 +109,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 }
                 Some(hit) => {
                     tally.hit::<A>(path.kind, hit.shape, hit.distance);
-                    let (more, other) =
-                        self.shade(&mut path, &hit, &mut sum, &mut work.walk, tally);
-                    if let Some(other) = other
-                        && let Some(place) = work.waiting.get_mut(waiting)
-                    {
-                        *place = other;
-                        waiting += 1;
-                    }
-                    more
+                    self.shade(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
                 }
             };
             if more {
@@ -113,28 +126,40 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         }
     }
 
-    /// Adds the terms of a hit; turns `path` into the next ray to follow if there is one, and
-    /// returns a second that must wait.
+    /// Adds the terms of a hit; turns `path` into the next ray to follow and says whether there is
+    /// one. A second has to wait.
     #[inline(always)]
-    fn shade<T: Tally>(
+    #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
+    fn shade<T: Tally, const MAX_DEPTH: usize>(
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
+        key: u32,
         sum: &mut Rgb<A::Radiance>,
-        walk: &mut WalkStack<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        waiting: &mut usize,
         tally: &mut T,
-    ) -> (bool, Option<Path<A>>) {
+    ) -> bool {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
         let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
-            return (false, None);
+            return false;
         };
         let surface = place.surface;
         let Some(material) = scene.material_at(place.material, &place.local) else {
-            return (false, None);
+            return false;
         };
+
+        if has(USES, uses::EMISSION)
+            && material.emits
+            && (!surface.behind || place.material.inside_only())
+        {
+            let radiance = rgb(&material.emission, &path.weight, A::dim);
+            tally.term::<A>(Term::Emission, &radiance);
+            *sum = rgb(sum, &radiance, A::gather);
+        }
 
         let ambient = &scene.parts.ambient.0;
         let above = grey::<A, USES>(&path.weight);
@@ -156,17 +181,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             shadow: outside,
             weight: &path.weight,
             depth: path.depth,
+            key,
         };
-        direct(scene, shading, sum, walk, tally);
+        direct(scene, shading, sum, &mut work.scratch, tally);
 
         if path.depth >= self.depth {
-            return (false, None);
+            return false;
         }
         let rules = &scene.parts.rules;
-        let depth = path.depth + 1;
+        path.depth += 1;
         let mut reflected = grey::<A, USES>(&material.reflection);
         let passed = grey::<A, USES>(&material.transmission);
-        let mut transmitted = None;
+        let mut passes = false;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
         if glass {
             let eta = if surface.behind { &material.eta[1] } else { &material.eta[0] };
@@ -179,13 +205,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                         weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
                     }
                     if largest(&weight) >= rules.cutoff {
-                        let ray = Ray {
+                        path.ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
                             leaving: Leaving::through(hit.shape, &surface),
                         };
-                        transmitted =
-                            Some(Path { ray, weight, depth, kind: RayKind::Transmission });
+                        path.weight = weight;
+                        path.kind = RayKind::Transmission;
+                        passes = true;
                     }
                 }
                 // Nothing gets through: the mirror ray carries both, unless the scene says not.
@@ -207,17 +234,17 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             // An interpolated normal can mirror a ray into the surface.
             let outwards = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
             if largest(&weight) >= rules.cutoff && outwards {
-                *path = Path { ray: outside, weight, depth, kind: RayKind::Reflection };
-                return (true, transmitted);
+                if passes && let Some(place) = work.waiting.get_mut(*waiting) {
+                    *place = *path;
+                    *waiting += 1;
+                }
+                path.ray = outside;
+                path.weight = weight;
+                path.kind = RayKind::Reflection;
+                return true;
             }
         }
-        match transmitted {
-            Some(next) => {
-                *path = next;
-                (true, None)
-            }
-            None => (false, None),
-        }
+        passes
     }
 }
 
