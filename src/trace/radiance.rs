@@ -80,7 +80,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
     /// made for is cut.
-    #[inline(never)]
+    #[inline]
     pub fn radiance<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
