@@ -58,6 +58,7 @@
 
 mod draw;
 pub mod frame;
+pub mod gather;
 pub mod math;
 pub mod octree;
 pub mod scene;

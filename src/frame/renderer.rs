@@ -169,6 +169,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
         }
+        if has(USES, uses::VIRTUAL_LIGHTS) {
+            self.tracer.set_turn(row.in_tile(x));
+        }
         self.radiance(&ray)
     }
 
@@ -178,6 +181,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let ray = self.view.ray(row, x, fraction);
         if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
+        }
+        if has(USES, uses::VIRTUAL_LIGHTS) {
+            self.tracer.set_turn(row.in_tile(x));
         }
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);

@@ -74,27 +74,35 @@ pub const EMISSION: u64 = 1 << 23;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
+/// Solids.
+pub const SOLIDS: u64 = 1 << 41;
+/// Cylinders and cones with caps.
+pub const CAPS: u64 = 1 << 42;
+/// [`Indirect::Cache`](crate::gather::Indirect::Cache).
+pub const IRRADIANCE_CACHE: u64 = 1 << 48;
+/// [`Indirect::VirtualLights`](crate::gather::Indirect::VirtualLights).
+pub const VIRTUAL_LIGHTS: u64 = 1 << 49;
 
 // What of the things above is of the simplest kind is cheaper; these say that some isn't.
 
 /// More than one plane.
-pub const SEVERAL_PLANES: u64 = 1 << 48;
+pub const SEVERAL_PLANES: u64 = 1 << 30;
 /// A plane across the x axis, its normal pointing along it.
-pub const PLANES_ACROSS_X: u64 = 1 << 49;
+pub const PLANES_ACROSS_X: u64 = 1 << 31;
 /// A plane across the y axis, its normal pointing along it.
-pub const PLANES_ACROSS_Y: u64 = 1 << 50;
+pub const PLANES_ACROSS_Y: u64 = 1 << 32;
 /// A plane across the z axis, its normal pointing along it.
-pub const PLANES_ACROSS_Z: u64 = 1 << 51;
+pub const PLANES_ACROSS_Z: u64 = 1 << 33;
 /// Another plane.
-pub const SLOPING_PLANES: u64 = 1 << 52;
+pub const SLOPING_PLANES: u64 = 1 << 34;
 /// More than one light.
-pub const SEVERAL_LIGHTS: u64 = 1 << 53;
+pub const SEVERAL_LIGHTS: u64 = 1 << 35;
 /// A light that isn't white.
-pub const COLORED_LIGHTS: u64 = 1 << 54;
+pub const COLORED_LIGHTS: u64 = 1 << 36;
 /// A reflection or transmission that isn't grey.
-pub const COLORED_RAYS: u64 = 1 << 55;
+pub const COLORED_RAYS: u64 = 1 << 37;
 /// Spheres that show their inside alone.
-pub const INSIDES: u64 = 1 << 56;
+pub const INSIDES: u64 = 1 << 38;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -118,7 +126,14 @@ pub(crate) const fn has(uses: u64, what: u64) -> bool {
 /// Whether there may be other bounded shapes than spheres.
 #[inline(always)]
 pub(crate) const fn has_others(uses: u64) -> bool {
-    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES | SOLIDS)
+        != 0
+}
+
+/// Whether there may be diffuse interreflection.
+#[inline(always)]
+pub(crate) const fn has_indirect(uses: u64) -> bool {
+    uses & (IRRADIANCE_CACHE | VIRTUAL_LIGHTS) != 0
 }
 
 /// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.
@@ -163,6 +178,17 @@ const fn bit(wanted: bool, what: u64) -> u64 {
 impl<A: Arithmetic> Shapes<'_, A> {
     /// The bits of these shapes.
     pub(crate) const fn uses(&self) -> u64 {
+        let mut caps = false;
+        let mut i = 0;
+        while i < self.cylinders.len() {
+            caps |= self.cylinders[i].has_caps();
+            i += 1;
+        }
+        let mut i = 0;
+        while i < self.cones.len() {
+            caps |= self.cones[i].has_caps();
+            i += 1;
+        }
         bit(!self.triangles.is_empty(), TRIANGLES)
             | bit(!self.smooth_triangles.is_empty(), SMOOTH_TRIANGLES)
             | bit(!self.polygons.is_empty(), POLYGONS)
@@ -170,6 +196,8 @@ impl<A: Arithmetic> Shapes<'_, A> {
             | bit(!self.discs.is_empty(), DISCS)
             | bit(!self.cylinders.is_empty(), CYLINDERS)
             | bit(!self.cones.is_empty(), CONES)
+            | bit(!self.solids.is_empty(), SOLIDS)
+            | bit(caps, CAPS)
             | bit(self.tree.is_some(), TREE)
             | self.uses_of_spheres()
     }
@@ -215,6 +243,7 @@ impl<A: Arithmetic> Parts<'_, A> {
             | of_instances(self.instances)
             | self.uses_of_planes()
             | bit(self.lights.len() > 1, SEVERAL_LIGHTS)
+            | self.indirect.uses()
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)

@@ -4,6 +4,7 @@
 //! it at −h/c, if h and c have opposite signs. A plane across an axis needs no products: the
 //! height is a difference of two numbers and the cosine a component of the direction.
 
+use super::chord::{Chord, Convex, signed_ratio};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{meets_plane, ok_or_panic, some_or, turned};
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic, unit_f64};
@@ -123,6 +124,23 @@ impl<A: Arithmetic> Plane<A> {
             }
         }
         turned(&normal, axis_of(&ray.direction, axis))
+    }
+}
+
+/// All that lies behind it.
+impl<A: Arithmetic> Convex<A> for Plane<A> {
+    fn chord(&self, ray: &Ray<A>, _: &A::Coarse) -> Option<Chord<A>> {
+        let height = A::project(&ray.origin, &self.normal) - self.offset;
+        let slope = A::dot(&ray.direction, &self.normal);
+        let mut chord = Chord::endless();
+        if slope > A::NO_UNIT {
+            chord.exit.distance = signed_ratio::<A>(-height, slope);
+        } else if slope < A::NO_UNIT {
+            chord.entry.distance = signed_ratio::<A>(height, -slope);
+        } else if height > A::NO_LENGTH {
+            return None;
+        }
+        Some(chord)
     }
 }
 

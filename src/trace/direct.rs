@@ -20,6 +20,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     /// The product of the coefficients down the tree.
     pub(super) weight: &'s Rgb<A::Weight>,
     pub(super) depth: u8,
+    /// Phong's highlight counts: not where irradiance is gathered.
+    pub(super) highlights: bool,
     /// Where random numbers come from: another one for each point that is shaded.
     pub(super) key: u32,
 }
@@ -71,7 +73,7 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     let weight = grey::<A, USES>(at.weight);
     let seen = weight.map(|w| A::weight(w, cosine));
     let mut factor = rgb(&at.material.diffuse, &seen, A::weight);
-    if has(USES, uses::HIGHLIGHTS) && at.material.shines {
+    if has(USES, uses::HIGHLIGHTS) && at.material.shines && at.highlights {
         // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
         let lobe = A::cosine(at.mirror, &direction);
         if lobe > A::NO_WEIGHT {

@@ -2,13 +2,16 @@
 
 mod area;
 mod direct;
+mod indirect;
 mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod site;
 mod visible;
 mod work;
 
+pub(crate) use area::point_of_light;
 pub use nearest::Hit;
 pub use radiance::Tracer;
 pub use work::Work;

@@ -14,6 +14,7 @@ use whitted_demo::rgb565;
 
 use crate::cores;
 use crate::elf;
+use crate::firmware::TWO_CORES;
 use crate::machine::{self, Record};
 use crate::report::Report;
 use crate::setup;
@@ -43,9 +44,6 @@ const SMALL: (u16, u16) = (60, 45);
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
 /// Sending by DMA may add this to tracing.
 const SENDING: f64 = 0.03;
-
-/// Two cores are to be quicker than one by this factor.
-const TWO_CORES: f64 = 1.8;
 
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]

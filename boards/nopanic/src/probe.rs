@@ -16,14 +16,17 @@ use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
+use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
+use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
+use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
 use whitted::scene::{Group, Instance, Light, LightSpec};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
-use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
-use whitted::shape::{Sphere, Triangle};
+use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
+use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::{Tracer, Work};
 use whitted::{Color, Picture};
@@ -73,6 +76,24 @@ macro_rules! arithmetic {
             let (base, apex) = (any([0.0; 3]), any([1.0; 3]));
             let cylinders = any([Cylinder::<$a>::try_new(base, apex, any(1.0), any(0)).ok()?; 2]);
             let cones = any([Cone::<$a>::try_new(base, any(1.0), apex, any(2.0), any(0)).ok()?; 2]);
+            let cylinders = [cylinders[0], any(cylinders[1].with_caps())];
+            let cones = [cones[0], any(cones[1].with_caps())];
+            let operands = any([
+                Operand::Sphere(spheres[0]),
+                Operand::Cuboid(cuboids[0]),
+                Operand::Cylinder(cylinders[0]),
+                Operand::Cone(cones[0]),
+                Operand::HalfSpace(planes[0]),
+            ]);
+            let region = any(Region::of(any(0))).or(any(Region::of(1))).and(any(Region::of(2)));
+            let region = any(region.minus(any(Region::NOTHING)));
+            any((region.is_nothing(), region.holds(any(7))));
+            let solid = Solid::<$a>::try_new(region, any(&operands), any(0), any(5));
+            if let Err(error) = &solid {
+                any(error.message());
+            }
+            let solids = any([solid.ok()?]);
+            any((solids[0].first_operand(), solids[0].operand_count()));
             any(Triangle::<$a>::extent_of(corners, any(-16)));
             any(Polygon::<$a>::extent_of(any(&corners), any(-16)));
             let (position, direction, intensity) = (any([1.0; 3]), any([1.0; 3]), any([9.0; 3]));
@@ -129,6 +150,8 @@ macro_rules! arithmetic {
                 discs: &discs,
                 cylinders: &cylinders,
                 cones: &cones,
+                solids: &solids,
+                operands: &operands,
                 tree: None,
             });
             let group = Group::<$a>::try_new(shapes);
@@ -155,6 +178,8 @@ macro_rules! arithmetic {
                 discs: any(&discs),
                 cylinders: any(&cylinders),
                 cones: any(&cones),
+                solids: any(&solids),
+                operands: any(&operands),
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
@@ -163,6 +188,7 @@ macro_rules! arithmetic {
                 light_corners: any(&fan),
                 light_jitter: any(Some(3)),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
+                indirect: any(Indirect::None),
                 background: any(background.ok()?),
                 rules: any(Rules::COURSE),
             };
@@ -177,6 +203,7 @@ macro_rules! arithmetic {
                 discs[0].extent(step),
                 cylinders[0].extent(step),
                 cones[0].extent(step),
+                solids[0].extent(step),
             ]);
             any(parts.bounded());
             let (mut words, mut scratch) = (any([0; 80]), any([0; 80]));
@@ -186,7 +213,7 @@ macro_rules! arithmetic {
                 any(error.message());
             }
             let cube = any(built.ok()?).cube;
-            let tree = Octree::<$a>::try_new(any(&words), any(8), &cube, any(-16));
+            let tree = Octree::<$a>::try_new(any(&words), any(9), &cube, any(-16));
             if let Err(error) = &tree {
                 any(error.message());
             }
@@ -202,7 +229,52 @@ macro_rules! arithmetic {
 
             let camera =
                 Camera::<$a>::try_look_at(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any(1.0));
-            any(camera.ok()?);
+            let camera = any(camera.ok()?);
+            let record = RecordSpec {
+                position: any([0.0; 3]),
+                normal: any([0.0, 1.0, 0.0]),
+                reach: any(1.0),
+                irradiance: any([1.0; 3]),
+                translation: any([0.5; 3]),
+                rotation: any([0.5; 3]),
+            };
+            let mut pool = any([Record::<$a>::try_new(&record).ok()?; 8]);
+            any(pool[0].position());
+            let gathering = GatheringSpec {
+                error: any(0.25),
+                rings: any(5),
+                sectors: any(13),
+                nearest: any(0.25),
+                farthest: any(4.0),
+                bounces: any(2),
+                depth: any(3),
+                coarse: any(8),
+                fine: any(2),
+                seed: any(1),
+            };
+            let gathering = any(Gathering::<$a>::try_new(&gathering).ok()?);
+            any((gathering.rays(), gathering.bounces(), gathering.depth()));
+            let (mut memory, mut counts) = (any(Work::<$a, 5>::new()), <$tally>::default());
+            let gatherer = Gatherer::new(&scene, gathering, &mut memory, &mut counts);
+            let mut drafts = any([Draft::<$a>::NONE; 8]);
+            let size = (any(60), any(60));
+            let filled = gatherer.ok()?.fill(&camera, size, &mut pool, &mut drafts).ok()?;
+            any((filled.is_full(), filled.records().len()));
+            let cache = IrradianceCache::<$a>::try_new(any(filled.records()), any(0.25)).ok()?;
+            let spec = VirtualLightsSpec {
+                bounces: any(2),
+                tile: any(2),
+                nearest: any(0.5),
+                center: any([0.0; 3]),
+                radius: any(9.0),
+            };
+            let settings = any(VirtualLightsSettings::<$a>::try_new(&spec).ok()?);
+            let mut pool = any([VirtualLight::<$a>::NONE; 16]);
+            let laid = VirtualLights::lay(&scene, &settings, &mut pool, &mut memory, &mut counts);
+            let laid = any(VirtualLights::new(any(laid.lights()), &settings));
+            let indirect = any([Indirect::Cache(cache), Indirect::VirtualLights(laid)]);
+            any(indirect[0].uses());
+            let scene = any(scene.with_indirect(any(indirect[1])).ok()?);
             let camera = Camera::<$a>::try_from_vectors(
                 any([0.0; 3]),
                 any([1.0; 3]),

@@ -178,6 +178,7 @@ impl Arithmetic for Fixed {
     const ONE_UNIT: Unit = Unit::ONE;
     const NO_WEIGHT: Weight = Weight::ZERO;
     const FULL: Weight = Weight::ONE;
+    const NO_INTENSITY: FixedIntensity = FixedIntensity { mantissa_q15: 0, exponent: 0 };
     const BLACK: I16F16 = I16F16::ZERO;
     const NO_SPAN: i32 = 0;
     const CUTOFF: Weight = Weight::from_bits(64);
@@ -422,6 +423,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn over_weight(r: I16F16, w: Weight) -> I16F16 {
+        I16F16::from_bits(kernel::ratio(r.to_bits(), w.to_bits(), 14) as i32)
+    }
+
+    #[inline(always)]
     fn ramp(middle: I16F16, slope: I16F16, u: Unit) -> I16F16 {
         // Rounding can leave u a little beyond ±1.
         let sum = middle.to_bits().wrapping_add(length_times_unit(slope.to_bits(), u.to_bits()));
@@ -449,8 +455,31 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn from_q16(bits: i32) -> I16F16 {
+        I16F16::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn to_q17(u: Unit) -> i32 {
+        u.to_bits()
+    }
+
+    #[inline(always)]
+    fn ratio_q16(a: I16F16, b: I16F16) -> u32 {
+        kernel::ratio(a.to_bits(), b.to_bits(), 16)
+    }
+
+    #[inline(always)]
     fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16F16 {
         light::falloff(intensity, inverse)
+    }
+
+    fn dim_intensity(i: &FixedIntensity, w: Weight) -> FixedIntensity {
+        light::dimmed(i, w)
+    }
+
+    fn spread_intensity(i: &FixedIntensity, r: I16F16) -> FixedIntensity {
+        light::spread(i, r)
     }
 
     #[inline(always)]

@@ -90,6 +90,7 @@ macro_rules! float {
             const ONE_UNIT: $f = 1.0;
             const NO_WEIGHT: $f = 0.0;
             const FULL: $f = 1.0;
+            const NO_INTENSITY: $f = 0.0;
             const BLACK: $f = 0.0;
             const NO_SPAN: $f = 0.0;
             const CUTOFF: $f = 1.0 / 255.0;
@@ -373,6 +374,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn over_weight(r: $f, w: $f) -> $f {
+                if w > 0.0 { r / w } else { 0.0 }
+            }
+
+            #[inline(always)]
             fn ramp(middle: $f, slope: $f, u: $f) -> $f {
                 let sum = middle + slope * u;
                 if sum < 0.0 { 0.0 } else { sum }
@@ -395,8 +401,34 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn from_q16(bits: i32) -> $f {
+                bits as $f * (1.0 / 65536.0)
+            }
+
+            #[inline(always)]
+            fn to_q17(u: $f) -> i32 {
+                (u * 131072.0) as i32
+            }
+
+            #[inline(always)]
+            fn ratio_q16(a: $f, b: $f) -> u32 {
+                let q = if b > 0.0 { (a / b * 65536.0) as u32 } else { u32::MAX };
+                if q > i32::MAX as u32 { i32::MAX as u32 } else { q }
+            }
+
+            #[inline(always)]
             fn falloff(intensity: &$f, inverse: &$f) -> $f {
                 Self::constant(&(*intensity * (*inverse * *inverse)))
+            }
+
+            #[inline(always)]
+            fn dim_intensity(i: &$f, w: $f) -> $f {
+                *i * w
+            }
+
+            #[inline(always)]
+            fn spread_intensity(i: &$f, r: $f) -> $f {
+                *i * (r * r)
             }
 
             #[inline(always)]
