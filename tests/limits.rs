@@ -61,6 +61,8 @@ fn material(random: &mut Random) -> MaterialSpec {
             }),
             _ => None,
         },
+        fresnel: random.below(2) == 0,
+        ..MaterialSpec::BLACK
     }
 }
 

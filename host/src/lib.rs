@@ -6,6 +6,7 @@
 pub mod bake;
 pub mod document;
 pub mod error;
+pub mod flash;
 mod mesh;
 pub mod need;
 pub mod nff;
@@ -16,6 +17,7 @@ pub mod polygon;
 pub mod pov;
 pub mod read;
 pub mod render;
+pub mod sampling;
 pub mod show;
 pub mod stats;
 pub mod toml;

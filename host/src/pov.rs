@@ -6,11 +6,14 @@
 //! What POV-Ray has no words for, and so differs: a surface that is both coloured and transmits
 //! has one coefficient of transmission for all channels (the mean is written); a highlight has
 //! the mean of its channels; neither a specular cosine nor a highlight's cosine; no shape that
-//! shows its inside alone; at total reflection the ray carries the transmission alone. The
+//! shows its inside alone; of textures it gets checkers, gradients and pictures, planar, in colours (the
+//! others as the mean of their colours), no bumps, and no medium before a surface; at total reflection the ray carries the transmission alone. The
 //! weakening of lights is POV-Ray's own formula, with a fade distance so small that it is 1/r² to
 //! four digits.
 
 use std::fmt::{self, Write as _};
+
+use whitted::scene::{Mapping, Pattern, TextureSpec, Wrap};
 
 use crate::document::{
     Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Made, Material, Point,
@@ -101,7 +104,11 @@ fn shapes(
         let shadow = material.shadow;
         let twin = shadow == ShadowThrough::Opaque && material.transmits();
         let mark = if twin || shadow == ShadowThrough::None { " no_shadow" } else { "" };
-        writeln!(out, " texture {{ T{index} }} interior {{ ior {ior} }}{mark} }}")?;
+        writeln!(
+            out,
+            " texture {{ T{index} }} interior {{ ior {ior}{} }}{mark} }}",
+            fading(material)
+        )?;
         if twin {
             body(&shape.body, out)?;
             writeln!(out, " pigment {{ rgb 0 }} hollow no_image no_reflection }}")?;
@@ -176,13 +183,81 @@ fn texture(document: &Document, index: usize) -> String {
     });
     let phong = (m.specular[0] + m.specular[1] + m.specular[2]) / 3.0;
     format!(
-        "texture {{ pigment {{ rgb {} {through} }} finish {{ ambient rgb {} diffuse 1 \
-         phong {phong} phong_size {} reflection {{ rgb {} }} }} }}",
-        V(color),
+        "texture {{ pigment {{ {} }} finish {{ ambient rgb {} diffuse 1 \
+         phong {phong} phong_size {} reflection {{ {} }} }} }}",
+        pigment(m, color, &through),
         V(ambient),
         m.shininess,
-        V(m.reflection)
+        if m.fresnel {
+            format!("rgb 0, rgb {} fresnel on", V(m.reflection))
+        } else {
+            format!("rgb {}", V(m.reflection))
+        }
     )
+}
+
+/// The colour of a surface, or its texture in that colour. What POV-Ray has otherwise or not at all
+/// gets the mean of its two colours.
+fn pigment(m: &Material, color: Point, through: &str) -> String {
+    let plain = |c: Point| {
+        let c = [0, 1, 2].map(|i| color[i] * c[i]);
+        format!("rgb {} {through}", V(c))
+    };
+    let Some(texture) = m.texture.as_ref().filter(|t| t.other.is_none()) else {
+        return plain([1.0; 3]);
+    };
+    let spec = &texture.spec;
+    let [first, second] = spec.colors;
+    let map = || format!("color_map {{ [0 {}] [1 {}] }}", plain(first), plain(second));
+    let placed = in_place(spec);
+    match (spec.pattern, spec.mapping, &texture.file) {
+        (Pattern::Checker, Mapping::Planar, _) => {
+            format!("checker {}, {} {placed}", plain(first), plain(second))
+        }
+        (Pattern::Gradient { wrap: Wrap::Repeat }, Mapping::Planar, _) => {
+            format!("gradient x {} {placed}", map())
+        }
+        (Pattern::Gradient { wrap: Wrap::Clamp }, Mapping::Planar, _) => {
+            format!("function {{ min(1, max(0, x)) }} {} {placed}", map())
+        }
+        (Pattern::Image(_), Mapping::Planar, Some(file)) => {
+            format!("image_map {{ png {:?} interpolate 2 }} {placed}", file.display().to_string())
+        }
+        (Pattern::Image(_), _, _) => plain([0.5; 3]),
+        _ => plain([0, 1, 2].map(|i| (first[i] + second[i]) / 2.0)),
+    }
+}
+
+/// From POV-Ray's unit cells to a texture's.
+fn in_place(spec: &TextureSpec<'_>) -> String {
+    // An axis that doesn't count gets one cell, with the scene in its middle.
+    const ENDLESS: f64 = 1e7;
+    let up = normalized(spec.up).unwrap_or([0.0, 1.0, 0.0]);
+    let third = normalized(cross(spec.right, up)).unwrap_or([0.0, 0.0, 1.0]);
+    let axes = [cross(up, third), up, third];
+    let mut origin = spec.origin;
+    let mut rows = Vec::new();
+    for (axis, size) in axes.into_iter().zip(spec.size) {
+        let side = if size > 0.0 { size } else { ENDLESS };
+        if size <= 0.0 {
+            origin = [0, 1, 2].map(|i| origin[i] - axis[i] * ENDLESS / 2.0);
+        }
+        rows.push(scaled(axis, side));
+    }
+    rows.push(origin);
+    let numbers: Vec<String> = rows.iter().flatten().map(f64::to_string).collect();
+    format!("matrix <{}>", numbers.join(", "))
+}
+
+/// What a medium absorbs: POV-Ray's exponential fading, by the strongest channel.
+fn fading(m: &Material) -> String {
+    let rates = m.absorption[1];
+    let most = rates.into_iter().fold(0.0, f64::max);
+    if most <= 0.0 {
+        return String::new();
+    }
+    let color = rates.map(|a| 1.0 - a / most);
+    format!(" fade_power 1001 fade_distance {} fade_color rgb {}", 1.0 / most, V(color))
 }
 
 fn pattern(index: usize, checker: &Checker) -> String {
@@ -305,6 +380,25 @@ mod tests {
             "open",
         ] {
             assert!(text.contains(word), "{word}");
+        }
+        assert_eq!(text.matches('{').count(), text.matches('}').count());
+    }
+
+    #[test]
+    fn surface_detail_has_its_words() {
+        let text = b"[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\n[[material]]\nname = \"a\"\n\
+            fresnel = true\nreflection = 1\nabsorption = [1, 2, 4]\n\
+            texture = { type = \"gradient\", size = 2, colors = [0, 0.5] }\n\
+            [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+        let document = parse(Format::Toml, text).unwrap_or_else(|flaw| panic!("{}", flaw.problem));
+        let text = to_pov(&document, Size { width: 4, height: 3 });
+        for word in [
+            "rgb 0, rgb <1, 1, 1> fresnel on",
+            "fade_power 1001 fade_distance 0.25 fade_color rgb <0.75, 0.5, 0>",
+            "gradient x color_map { [0 rgb <0, 0, 0> transmit 0] [1 rgb <0.4, 0.4, 0.4> transmit 0] }",
+            "matrix <2, 0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0>",
+        ] {
+            assert!(text.contains(word), "{word}\n{text}");
         }
         assert_eq!(text.matches('{').count(), text.matches('}').count());
     }

@@ -1,11 +1,13 @@
 //! Pictures of a baked scene.
 
 mod bands;
+mod deadline;
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
-pub use whitted::frame::Sampling;
+pub use deadline::{Shown, render_until};
+pub use whitted::frame::{Progress, Sampling};
 use whitted::frame::{Renderer, Sample};
 use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;

@@ -29,6 +29,11 @@ fn every_key_is_documented() {
         format!("{SMALLEST}[background]\nzzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}zzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}checker = {{ with = \"b\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"wood\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"brick\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"stripes\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"gradient\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}bump = {{ type = \"noise\", height = 1, zzz = 1 }}\n"),
         format!("{SMALLEST}{MATERIAL}[[light]]\nposition = {point}\nzzz = 1\n"),
         format!(
             "{SMALLEST}{MATERIAL}[[light]]\ntype = \"spot\"\nposition = {point}\n\

@@ -139,6 +139,95 @@ const TOML: &[(&str, &str)] = &[
     ("[[material]]\nname = \"a\"\nchecker = { with = \"b\" }", ":11: unknown material \"b\""),
     ("[[material]]\nname = \"a\"\nchecker = { with = \"a\" }", ":9: checker: its two materials"),
     ("[[material]]\nname = \"a\"\nchecker = { with = \"red\", size = 0 }", ":11: size 0 is out"),
+    ("[[material]]\nname = \"a\"\ntexture = 3", ":11: found 3 for \"texture\"; a table should"),
+    ("[[material]]\nname = \"a\"\ntexture = { size = 1 }", ":11: key \"type\" of this texture"),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"fur\" }",
+        ":11: unknown word \"fur\"; known",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", width = 1 }",
+        ":11: unknown key \"width\"",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", octaves = 9 }",
+        ":11: octaves 9 is out of range: it must be 1 to 8",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", size = 0 }",
+        ":11: size 0 is out of range",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", size = [0, -1, 0] }",
+        ":11: texture: its size must be positive",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", colors = [1] }",
+        ":11: found a list of 1 for \"colors\"; two colors should be here",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"b\" }",
+        ":11: unknown material \"b\"; known: red, a",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"a\" }",
+        ":11: texture: its two materials are the same",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"red\", colors = [0, 1] }",
+        ":11: colors of a texture: \"with\" says",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"red\", mapping = \"uv\" }",
+        ":11: texture: another material can't be shown by a mesh's",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", right = [0, 2, 0] }",
+        ":11: texture: a direction is null or not a number",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\" }",
+        ":11: key \"file\" of this texture is missing",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \"no.png\" }",
+        ":11: picture \"no.png\": can't be read: No such file",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \"bad.toml\" }",
+        ":11: picture \"bad.toml\": is no picture in PNG",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \".\" }",
+        ":11: picture \".\": is a directory",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \"x\", palette = 2 }",
+        ":11: palette 2 is out of range: it must be 16 to 256",
+    ),
+    ("[[material]]\nname = \"a\"\nbump = { type = \"noise\" }", ":11: key \"height\" of this bump"),
+    (
+        "[[material]]\nname = \"a\"\nbump = { type = \"noise\", height = 5 }",
+        ":11: height 5 is out of range: it must be within ±4, four cells",
+    ),
+    (
+        "[[material]]\nname = \"a\"\nbump = { type = \"noise\", height = 1, mapping = \"spherical\" }",
+        ":11: bump: only a planar mapping has slopes",
+    ),
+    ("[[material]]\nname = \"a\"\nfresnel = 1", ":11: found 1 for \"fresnel\"; true or false"),
+    ("[[material]]\nname = \"a\"\nabsorption = -1", ":11: absorption -1 is out of range: it must"),
+    (
+        "[[material]]\nname = \"a\"\nabsorption = [1, 2]",
+        ":11: found a list of 2 for \"absorption\"",
+    ),
+    (
+        "[[triangle]]\ncorners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nuv = [[0, 0], [1, 0]]",
+        ":11: found a list of 2 for \"uv\"; a list of three [u, v]",
+    ),
+    (
+        "[[triangle]]\ncorners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nuv = [[0, 0], [1, 0], [0, 9]]",
+        ":11: uv 9 is out of range",
+    ),
     ("[[triangle]]\ncorners = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]", ":9: triangle: its corners lie"),
     ("[[triangle]]\ncorners = [[0, 0, 0], [1, 1, 1]]", ":10: found a list of 2 for \"corners\""),
     (
@@ -166,6 +255,15 @@ const TOML: &[(&str, &str)] = &[
     ("[render]\nsize = 100", ":10: found 100 for \"size\"; [width, height] should be here"),
     ("[render]\ndepth = 0", ":10: depth 0 is out of range: it must be 1 to 64"),
     ("[render]\ndepth = 2.5", ":10: depth 2.5 is out of range: it must be a whole number"),
+    ("[render]\nsampling = 4", ":10: found 4 for \"sampling\"; a text in quotes should be here"),
+    (
+        "[render]\nsampling = \"fine\"",
+        ":10: sampling: \"fine\" isn't a sampling: it is center, cor",
+    ),
+    (
+        "[render]\nsampling = \"grid:9\"",
+        ":10: sampling: \"9\" isn't a number of cells each way, 1 to 8",
+    ),
     ("[render]\nspecular_cosine = 1", ":10: found 1 for \"specular_cosine\"; true or false"),
     ("[background]\nbottom = 1", ":9: either \"color\", or both \"bottom\" and \"top\""),
     ("[camera]\neye = [0, 0, 0]", ":9: duplicate key"),

@@ -67,6 +67,14 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// [`MaterialSpec::texture`](super::MaterialSpec::texture).
+pub const TEXTURES: u64 = 1 << 48;
+/// [`MaterialSpec::bump`](super::MaterialSpec::bump).
+pub const BUMPS: u64 = 1 << 49;
+/// [`MaterialSpec::fresnel`](super::MaterialSpec::fresnel).
+pub const FRESNEL: u64 = 1 << 50;
+/// [`MaterialSpec::absorption`](super::MaterialSpec::absorption).
+pub const ABSORPTION: u64 = 1 << 51;
 /// Lights with an area.
 pub const AREA_LIGHTS: u64 = 1 << 22;
 /// Materials that emit.
@@ -79,9 +87,9 @@ pub const SOLIDS: u64 = 1 << 41;
 /// Cylinders and cones with caps.
 pub const CAPS: u64 = 1 << 42;
 /// [`Indirect::Cache`](crate::gather::Indirect::Cache).
-pub const IRRADIANCE_CACHE: u64 = 1 << 48;
+pub const IRRADIANCE_CACHE: u64 = 1 << 52;
 /// [`Indirect::VirtualLights`](crate::gather::Indirect::VirtualLights).
-pub const VIRTUAL_LIGHTS: u64 = 1 << 49;
+pub const VIRTUAL_LIGHTS: u64 = 1 << 53;
 
 // What of the things above is of the simplest kind is cheaper; these say that some isn't.
 
@@ -151,7 +159,7 @@ pub(crate) const fn has_signatures(uses: u64) -> bool {
 /// The coefficients of a ray, of which the first stands for all where none are coloured.
 #[inline(always)]
 pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A::Weight> {
-    if has(USES, COLORED_RAYS) { *k } else { [k[0]; 3] }
+    if has(USES, COLORED_RAYS) || has(USES, ABSORPTION) { *k } else { [k[0]; 3] }
 }
 
 /// Does something with all of a slice, or with the first where there is no more: no loop is left
@@ -253,6 +261,10 @@ impl<A: Arithmetic> Parts<'_, A> {
         while i < self.materials.len() {
             let material = &self.materials[i];
             uses |= bit(material.pattern.is_some(), PATTERNS)
+                | bit(material.texture().is_some(), TEXTURES)
+                | bit(material.bump().is_some(), BUMPS)
+                | bit(material.fresnel, FRESNEL)
+                | bit(material.absorption().is_some(), ABSORPTION)
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)

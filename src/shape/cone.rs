@@ -282,6 +282,9 @@ impl<A: Arithmetic> Shape<A> for Open<'_, Cone<A>> {
             let height = s + A::product(root, da);
             let t = closest + A::scale(size, root);
             let between = height <= it.half && -height <= it.half;
+            // Both circles lie in the sphere; a root that was clipped is a point of its own, which
+            // may be between them too.
+            let between = between && root <= A::ONE_UNIT && -root <= A::ONE_UNIT;
             if between && t > A::NO_LENGTH && t <= limit { Some(t) } else { None }
         };
         if !inwards
@@ -324,11 +327,34 @@ impl<A: Arithmetic> Shape<A> for Open<'_, Cone<A>> {
 mod tests {
     use super::*;
     use crate::math::Fixed;
-    use crate::shape::testing::{distance, ray};
+    use crate::shape::testing::{Test, distance, ray};
 
     #[test]
     fn fifty_two_bytes() {
         assert_eq!(size_of::<Cone<Fixed>>(), 52);
+    }
+
+    #[test]
+    fn below_a_flat_cone_there_is_nothing() {
+        // On the way in the ray crosses the slab between the circles outside of both, and meets
+        // the double cone far away: where |x| = 0.02 + 6·y and x = 0.09 − τ, y = h − 0.2·τ, at
+        // τ = (0.07 − 6h)/−0.2 and, below the slab, at τ = (0.11 + 6h)/2.2.
+        fn all_miss<A: Test>(cone: &Cone<A>)
+        where
+            Cone<A>: Shape<A>,
+        {
+            let length = 1.04f64.sqrt();
+            let way = [-1.0 / length, -0.2 / length, 0.0];
+            for step in 0..40 {
+                let h = -0.02 + 0.0005 * f64::from(step);
+                let from = [0.09 + 2.0, h + 0.2 * 2.0, 0.0];
+                assert_eq!(distance(cone, &ray(from, way)), None, "{h}");
+            }
+        }
+        let (base, apex) = ([0.0; 3], [0.0, 0.01, 0.0]);
+        all_miss(&Cone::<f64>::new(base, 0.02, apex, 0.08, 0));
+        all_miss(&Cone::<f32>::new(base, 0.02, apex, 0.08, 0));
+        all_miss(&Cone::<Fixed>::new(base, 0.02, apex, 0.08, 0));
     }
 
     #[test]

@@ -63,6 +63,13 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     if cosine <= A::NO_WEIGHT {
         return None;
     }
+    // A dent doesn't see a light that lies below the surface.
+    if has(USES, uses::BUMPS)
+        && at.material.bump().is_some()
+        && A::cosine(&at.surface.geometric, &direction) <= A::NO_WEIGHT
+    {
+        return None;
+    }
     at.shadow.direction = direction;
     tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
     let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {

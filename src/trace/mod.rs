@@ -1,6 +1,7 @@
 //! Tracing: from a camera's ray to its radiance, the tree of rays on an explicit stack.
 
 mod area;
+mod detail;
 mod direct;
 mod indirect;
 mod meet;

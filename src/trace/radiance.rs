@@ -4,6 +4,7 @@
 //! down the tree, and sends at most two rays. One is followed at once, the other waits on a
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
+use super::detail::{self, bumped, painted};
 use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
@@ -196,10 +197,31 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
             return false;
         };
-        let surface = place.surface;
+        let mut surface = place.surface;
         let Some(material) = scene.material_at(place.material, &place.local) else {
             return false;
         };
+
+        // A textured material is one made for the point, so that nothing below need know.
+        let made;
+        let mut material = material;
+        if has(USES, uses::TEXTURES)
+            && let Some(texture) = material.texture()
+        {
+            made = painted(scene, *material, texture, hit.shape, place.local);
+            material = &made;
+        }
+        if has(USES, uses::BUMPS)
+            && let Some(texture) = material.bump()
+        {
+            surface = bumped(scene, texture, surface, hit.shape, place.local, ray.direction);
+        }
+        if has(USES, uses::ABSORPTION)
+            && let Some(absorption) = material.absorption()
+        {
+            let way = hit.distance;
+            path.weight = detail::absorbed(scene, absorption, surface.behind, way, path.weight);
+        }
 
         if has(USES, uses::EMISSION)
             && material.emits
@@ -260,17 +282,25 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let passed = grey::<A, USES>(&material.transmission);
         let mut passes = false;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
-        if glass {
+        let fresnel = has(USES, uses::FRESNEL) && material.fresnel;
+        if glass || fresnel {
             let eta = if surface.behind { &material.eta[1] } else { &material.eta[0] };
             let direction = &path.ray.direction;
             match A::refract(direction, &surface.normal, surface.cosine, eta) {
                 Some(direction) => {
                     let mut weight = rgb(&passed, &above, A::weight);
+                    if fresnel {
+                        let cosine = -A::cosine(&surface.normal, &direction);
+                        let cosines = [A::weight_of(surface.cosine), positive::<A>(cosine)];
+                        let share = detail::reflectance::<A>(cosines, A::eta_weight(eta));
+                        reflected = reflected.map(|k| A::weight(k, share));
+                        weight = weight.map(|w| A::weight(w, A::FULL - share));
+                    }
                     if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                         let cosine = -A::cosine(&surface.normal, &direction);
                         weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
                     }
-                    if largest(&weight) >= rules.cutoff {
+                    if glass && largest(&weight) >= rules.cutoff {
                         path.ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
@@ -281,8 +311,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                         passes = true;
                     }
                 }
-                // Nothing gets through: the mirror ray carries both, unless the scene says not.
-                None if !rules.lossy => {
+                // Nothing gets through: the mirror ray carries both, unless the scene says not. By
+                // Fresnel's formula it already carries all of its own.
+                None if !rules.lossy && !fresnel => {
                     reflected = rgb(&reflected, &passed, |a, b| a + b);
                 }
                 None => {}

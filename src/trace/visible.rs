@@ -1,5 +1,6 @@
 //! What a shadow ray finds between a point and a light.
 
+use super::detail::absorbed;
 use super::meet::{meet_any, surface_at};
 use super::nearest::nearest;
 use super::work::Scratch;
@@ -256,6 +257,11 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
         let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
         let surface = place.surface;
         let material = scene.material_at(place.material, &place.local)?;
+        if has(USES, uses::ABSORPTION)
+            && let Some(absorption) = material.absorption()
+        {
+            share = absorbed(scene, absorption, surface.behind, hit.distance, share);
+        }
         match material.shadow {
             Shadow::None => {}
             Shadow::Filtered if material.transmits => {

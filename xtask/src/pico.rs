@@ -9,6 +9,7 @@ use std::process::Command;
 use embedded_graphics::pixelcolor::raw::RawU16;
 use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
 use embedded_graphics::prelude::*;
+use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
 
@@ -178,7 +179,7 @@ fn both_cores(job: &Job) -> Result<(), String> {
 }
 
 fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
-    Job { scene, arith: ArithName::Fixed, width, height }
+    Job { scene, arith: ArithName::Fixed, width, height, sampling: Sampling::Center }
 }
 
 fn build(display: &Display) -> Result<PathBuf, String> {

@@ -15,16 +15,19 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
+use whitted::frame::Transfer;
+use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
 use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
 use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
+use whitted::scene::{Absorption, Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
 use whitted::scene::{Group, Instance, Light, LightSpec};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
+use whitted::scene::{TriangleUv, Wrap};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
 use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
@@ -58,6 +61,10 @@ macro_rules! arithmetic {
                 emission: any([0.1; 3]),
                 shadow: any(Shadow::Filtered),
                 pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
+                texture: any(Some(0)),
+                bump: any(Some(1)),
+                fresnel: any(true),
+                absorption: any(Some(0)),
             };
             let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
             let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
@@ -116,6 +123,19 @@ macro_rules! arithmetic {
                 samples: any([2, 9]),
                 body: any(Some(1)),
             };
+            let image = Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
+            let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
+            any(image.size());
+            let texture = TextureSpec {
+                mapping: any(Mapping::Spherical),
+                other: any(Some(1)),
+                height: any(0.5),
+                ..TextureSpec::of(any(Pattern::Image(image)))
+            };
+            let textures = any([Texture::<$a>::try_new(&any(texture)).ok()?; 2]);
+            let uvs = any([TriangleUv::try_new(any([[0.5; 2]; 3])).ok()?; 4]);
+            let absorptions =
+                any([Absorption::<$a>::try_new(any([0.5; 3]), any([0.1; 3])).ok()?; 1]);
             let (corner, edge) = (any([1.0; 3]), any([1.0; 3]));
             let area_lights = any([
                 AreaLight::<$a>::try_new(&spec(Area::Rectangle { corner, u: edge, v: edge }))
@@ -146,6 +166,7 @@ macro_rules! arithmetic {
                 smooth_triangles: &smooth,
                 polygons: &polygons,
                 edges: &edges,
+                uvs: &uvs,
                 cuboids: &cuboids,
                 discs: &discs,
                 cylinders: &cylinders,
@@ -174,6 +195,7 @@ macro_rules! arithmetic {
                 smooth_triangles: any(&smooth),
                 polygons: any(&polygons),
                 edges: any(&edges),
+                uvs: any(&uvs),
                 cuboids: any(&cuboids),
                 discs: any(&discs),
                 cylinders: any(&cylinders),
@@ -183,6 +205,8 @@ macro_rules! arithmetic {
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
+                textures: any(&textures),
+                absorptions: any(&absorptions),
                 lights: any(&lights),
                 area_lights: any(&area_lights),
                 light_corners: any(&fan),
@@ -305,6 +329,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
         ..Settings::new(any(60), any(60))
     };
     any(settings.sampling.samples(any(60)));
+    any(settings.sampling.uses());
     let samples = &mut samples[..];
     let mut renderer =
         Renderer::with_tally(scene, camera, settings, &mut work, any(samples), tally).ok()?;
@@ -319,6 +344,15 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let ray = any(renderer.ray(any(3), any(4)));
     any(renderer.radiance(&ray));
     pixels(&mut renderer, &output);
+    let mut passes = any(Passes::new(any(16))).ok()?;
+    any(renderer.refine(
+        &mut passes,
+        |_| any(false),
+        |block| {
+            any(block.x);
+        },
+    ));
+    any((passes.side(), passes.is_done()));
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
@@ -358,6 +392,10 @@ fn picture<'a, A: Arithmetic, T: Tally, C: Color>(
     any(Image::new(&picture, any(Point::zero())).draw(&mut display).is_ok());
     let area = Rectangle::new(any(Point::zero()), any(Size::new(9, 9)));
     any(picture.draw_sub_image(&mut display, &area).is_ok());
+    if let Ok(mut passes) = Passes::new(any(8)) {
+        let place = any(Point::zero());
+        any(picture.refine(&mut display, place, &mut passes, |_| any(false)).is_ok());
+    }
     any(display.color);
     picture.into_renderer()
 }
@@ -391,6 +429,12 @@ impl<C: PixelColor> DrawTarget for Display<C> {
         any(area);
         colors.into_iter().for_each(|color| self.color = any(Some(color)));
         any(Err(()))
+    }
+
+    fn fill_solid(&mut self, area: &Rectangle, color: C) -> Result<(), ()> {
+        any(area);
+        self.color = any(Some(color));
+        any(Ok(()))
     }
 }
 

@@ -6,8 +6,8 @@
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
-    Ambient, Background, Camera, Group, Instance, Light, LightSpec, Material, MaterialSpec, Parts,
-    Scene, SceneError, Shapes, Transform,
+    Absorption, Ambient, Background, Camera, Group, Instance, Light, LightSpec, Material,
+    MaterialSpec, Parts, Scene, SceneError, Shapes, Texture, TextureSpec, Transform,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
@@ -148,6 +148,12 @@ construct! {
     /// See [`Material`].
     fn new_material(spec: &MaterialSpec) -> Made<Material<Self>>
         = |A| Material::<A>::try_new(spec);
+    /// See [`Texture`].
+    fn new_texture(spec: &TextureSpec<'static>) -> Made<Texture<'static, Self>>
+        = |A| Texture::<A>::try_new(spec);
+    /// See [`Absorption`].
+    fn new_absorption(front: Point, behind: Point) -> Made<Absorption<Self>>
+        = |A| Absorption::<A>::try_new(front, behind);
     /// See [`Light`].
     fn new_light(spec: &LightSpec) -> Made<Light<Self>>
         = |A| Light::<A>::try_new(spec);

@@ -11,8 +11,8 @@ pub use place::Placement;
 use shapes::Shapes;
 
 use whitted::scene::{
-    Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
-    PatternSpec, Rules, Scene, Shadow,
+    Absorption, Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec,
+    Parts, PatternSpec, Rules, Scene, Shadow, Texture, TextureSpec,
 };
 use whitted::shape::ShapeError;
 
@@ -29,6 +29,8 @@ pub struct Baked<A: Construct> {
     shapes: Shapes<A>,
     groups: Groups<A>,
     materials: Vec<Material<A>>,
+    textures: Vec<Texture<'static, A>>,
+    absorptions: Vec<Absorption<A>>,
     lights: Vec<Light<A>>,
     ambient: Ambient<A>,
     background: Background<A>,
@@ -46,11 +48,14 @@ impl<A: Construct> Baked<A> {
             document::Background::Color(color) => A::new_uniform(color),
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
+        let detail = detail(&placed)?;
         let baked = Self {
             placement,
             shapes: Shapes::new(&placed.shapes, placed.bounds(), |i| placed.file_of_shape(i))?,
             groups: Groups::new(&placed)?,
             materials: materials(&placed)?,
+            textures: detail.textures,
+            absorptions: detail.absorptions,
             lights: lights(&placed)?,
             ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
@@ -72,6 +77,8 @@ impl<A: Construct> Baked<A> {
         let scene: Result<Scene<'_, A>, _> = A::new_scene(Parts {
             instances: &instances,
             materials: &self.materials,
+            textures: &self.textures,
+            absorptions: &self.absorptions,
             lights: &self.lights,
             ambient: self.ambient,
             background: self.background,
@@ -141,7 +148,16 @@ fn refused<A: Construct>(what: &str, error: ShapeError, line: Option<usize>) -> 
 }
 
 fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw> {
-    let make = |m: &document::Material| {
+    // Numbered as `detail` lists them.
+    let (mut textures, mut absorptions) = (0u16, 0u16);
+    let next = |wanted: bool, count: &mut u16| {
+        wanted.then(|| {
+            let index = *count;
+            *count = count.saturating_add(1);
+            index
+        })
+    };
+    let mut make = |m: &document::Material| {
         let refuse = |error| refused::<A>("the material", error, Some(m.line));
         let pattern = match &m.checker {
             None => None,
@@ -167,12 +183,45 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
                 ShadowThrough::None => Shadow::None,
             },
             pattern,
+            texture: next(m.texture.is_some(), &mut textures),
+            bump: next(m.bump.is_some(), &mut textures),
+            fresnel: m.fresnel,
+            absorption: next(m.absorbs(), &mut absorptions),
         })
         .map_err(refuse)
     };
     let from = |i| document.file_of_material(i);
     let all = document.materials.iter().enumerate();
     all.map(|(i, m)| make(m).map_err(|flaw| flaw.within(from(i)))).collect()
+}
+
+/// What materials name by index.
+struct Detail<A: Construct> {
+    textures: Vec<Texture<'static, A>>,
+    absorptions: Vec<Absorption<A>>,
+}
+
+/// The textures and media of all materials, one after the other, each material's bump after its
+/// texture.
+fn detail<A: Construct>(document: &Document) -> Result<Detail<A>, Flaw> {
+    let mut detail = Detail { textures: Vec::new(), absorptions: Vec::new() };
+    for (i, material) in document.materials.iter().enumerate() {
+        let from = document.file_of_material(i);
+        let refuse = |what, e, line| refused::<A>(what, e, Some(line)).within(from);
+        for texture in [&material.texture, &material.bump].into_iter().flatten() {
+            let refuse = |e| refuse("the texture", e, texture.line);
+            let other = texture.other.map(u16::try_from).transpose();
+            let other = other.map_err(|_| refuse(ShapeError::Material))?;
+            let spec = TextureSpec { other, ..texture.spec };
+            detail.textures.push(A::new_texture(&spec).map_err(refuse)?);
+        }
+        if material.absorbs() {
+            let [front, behind] = material.absorption;
+            let made = A::new_absorption(front, behind);
+            detail.absorptions.push(made.map_err(|e| refuse("the absorption", e, material.line))?);
+        }
+    }
+    Ok(detail)
 }
 
 fn lights<A: Construct>(document: &Document) -> Result<Vec<Light<A>>, Flaw> {

@@ -2,7 +2,7 @@
 //!
 //! Floating point takes a scene as it is. Fixed point has one step everywhere, so a scene is
 //! moved to the origin and scaled by a power of two until it fills the range; lengths that the
-//! scene states (checker cells, positions of lights and camera) follow, and the intensity of a
+//! scene states (cells of patterns, positions of lights and camera) follow, and the intensity of a
 //! light with falloff grows with the square.
 //!
 //! What the range is filled with:
@@ -12,6 +12,8 @@
 //! - A light so far that its direction changes by less than [`PARALLEL`] over the whole scene is
 //!   made directional, which it is to the eye; anything nearer keeps its place. Moving a light
 //!   nearer would change directions by as much as it gains range, so that is never done.
+
+use whitted::scene::{Mapping, TextureSpec};
 
 use crate::document::{
     Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, length, scaled,
@@ -95,6 +97,12 @@ impl Placement {
         let Camera { eye, look_at, .. } = &mut placed.camera;
         (*eye, *look_at) = (self.point(*eye), self.point(*look_at));
         placed.materials.iter_mut().for_each(|material| self.material(material));
+        // Ways are measured in the scene, within groups too.
+        for material in &mut placed.materials {
+            for rate in material.absorption.as_flattened_mut() {
+                *rate /= self.scale();
+            }
+        }
         for index in 0..document.groups.len() {
             self.group(document, index, &mut placed);
         }
@@ -112,7 +120,22 @@ impl Placement {
         placed
     }
 
+    fn texture(&self, spec: &mut TextureSpec<'_>) {
+        let s = self.scale();
+        spec.origin = self.point(spec.origin);
+        spec.height *= s;
+        match spec.mapping {
+            Mapping::Planar => spec.size = scaled(spec.size, s),
+            Mapping::Cylindrical => spec.size[1] *= s,
+            Mapping::Spherical | Mapping::Uv => {}
+        }
+    }
+
+    /// What of a material lies in a space.
     fn material(&self, material: &mut Material) {
+        for texture in [&mut material.texture, &mut material.bump].into_iter().flatten() {
+            self.texture(&mut texture.spec);
+        }
         if let Some(checker) = &mut material.checker {
             checker.cell = scaled(checker.cell, self.scale());
             checker.offset = self.point(checker.offset);
@@ -148,7 +171,9 @@ impl Placement {
             let Some(original) = document.materials.get(old) else { return old };
             let mut here = original.clone();
             space.material(&mut here);
-            if materials.get(old).is_some_and(|there| *there == here) {
+            let Some(there) = materials.get(old) else { return old };
+            here.absorption = there.absorption;
+            if *there == here {
                 return old;
             }
             materials.push(here);

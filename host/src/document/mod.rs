@@ -17,6 +17,7 @@ mod place;
 mod rules;
 mod shape;
 mod solid;
+mod texture;
 mod transform;
 mod vector;
 
@@ -29,6 +30,7 @@ pub use place::Misplaced;
 pub use rules::Rules;
 pub use shape::{Body, Shape};
 pub use solid::{Made, Solid};
+pub use texture::Texture;
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
 

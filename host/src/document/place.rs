@@ -175,6 +175,9 @@ impl Document {
         for checker in materials.iter_mut().filter_map(|m| m.checker.as_mut()) {
             checker.other += first;
         }
+        for other in materials.iter_mut().filter_map(|m| m.texture.as_mut()?.other.as_mut()) {
+            *other += first;
+        }
         self.materials.append(&mut materials);
         // Files that the other file includes keep their names; in a copy they lie further on.
         let part = |shapes, materials, lights, groups, file: &Path| Included {
@@ -201,6 +204,7 @@ impl Document {
                 let misplaced = |why| Misplaced { what: shape.body.name(), line: shape.line, why };
                 for body in shape.body.placed(by).map_err(misplaced)? {
                     let mut placed = super::Shape { body, ..shape.clone() };
+                    placed.uv = super::Shape::uv_placed(shape.uv, by.mirrors());
                     placed.rename(&mut |index| index + first);
                     self.shapes.push(placed);
                 }

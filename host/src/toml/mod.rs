@@ -8,6 +8,7 @@ mod material;
 mod place;
 mod solid;
 mod table;
+mod texture;
 
 use toml::de::DeTable;
 
@@ -16,6 +17,8 @@ use crate::document::{
 };
 use crate::error::{Flaw, Problem};
 use crate::read::Around;
+use crate::render::Sampling;
+use crate::sampling;
 use group::Groups;
 use material::Names;
 use table::{Lines, Table, Value};
@@ -50,7 +53,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
     };
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
-    let mut names = Names::read(&tables(&scene, "material")?)?;
+    let mut names = Names::read(&tables(&scene, "material")?, around)?;
     let lights = tables(&scene, "light")?;
     let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
     let mut document = Document {
@@ -120,6 +123,7 @@ fn copies(
     material: usize,
     shapes: &mut Vec<Shape>,
 ) -> Result<(), Flaw> {
+    let uv = if table.name == "triangle" { body::uv(table)? } else { None };
     let copies = place::read(table)?;
     table.done()?;
     for body in bodies {
@@ -134,7 +138,8 @@ fn copies(
                     return Err(wrong(why));
                 }
                 within(&body, table.line)?;
-                shapes.push(Shape { body, material, line: table.line });
+                let uv = Shape::uv_placed(uv, by.mirrors());
+                shapes.push(Shape { body, material, uv, line: table.line });
             }
         }
     }
@@ -217,9 +222,15 @@ fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
         depth: table.get("depth").map_or(Ok(like.depth), |v| {
             v.count("depth", 1, Rules::DEEPEST.into()).map(|depth| depth as u8)
         })?,
+        sampling: table.get("sampling").map_or(Ok(like.sampling), |v| sampling_of(&v))?,
     };
     table.done()?;
     Ok((size, rules))
+}
+
+fn sampling_of(value: &Value<'_>) -> Result<Sampling, Flaw> {
+    let text = value.text("sampling")?;
+    sampling::parse(text).map_err(|why| Problem::Syntax(format!("sampling: {why}")).at(value.line))
 }
 
 fn size_of(value: Value<'_>) -> Result<Size, Flaw> {

@@ -59,7 +59,7 @@ pub struct FloatScale<F> {
 }
 
 macro_rules! float {
-    ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, eps: $eps:literal, slow: $slow:literal) => {
+    ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, exp: $exp:path, eps: $eps:literal, slow: $slow:literal) => {
         impl Arithmetic for $f {
             type Length = $f;
             type Unit = $f;
@@ -71,6 +71,7 @@ macro_rules! float {
             type Intensity = $f;
             type Exponent = $f;
             type Eta = FloatEta<$f>;
+            type Decay = $f;
             type Barycentric = FloatBarycentric<$f>;
             type Normal = [$f; 3];
             type Outline = FloatOutline<$f>;
@@ -445,6 +446,43 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn cells(x: $f, per: $f) -> i32 {
+                let steps = x * per * 65536.0;
+                let whole = steps as i64;
+                whole.wrapping_sub((whole as $f > steps) as i64) as i32
+            }
+
+            #[inline(always)]
+            fn eta_weight(eta: &FloatEta<$f>) -> $f {
+                eta.0
+            }
+
+            #[inline(always)]
+            fn decay(rate: &$f, t: $f) -> $f {
+                $exp(-(*rate * t))
+            }
+
+            #[inline(always)]
+            fn weight_q14(bits: i32) -> $f {
+                bits as $f * (1.0 / 16384.0)
+            }
+
+            #[inline(always)]
+            fn to_q14(w: $f) -> i32 {
+                (w * 16384.0) as i32
+            }
+
+            #[inline(always)]
+            fn length_q16(bits: i32) -> $f {
+                bits as $f * (1.0 / 65536.0)
+            }
+
+            #[inline(always)]
+            fn unit_q17(bits: i32) -> $f {
+                bits as $f * (1.0 / 131072.0)
+            }
+
+            #[inline(always)]
             fn aim(base: $f, step: $f, n: i32, fraction: i32) -> $f {
                 base + step * (n as $f + fraction as $f * (1.0 / 256.0))
             }
@@ -516,7 +554,7 @@ macro_rules! float {
     };
 }
 
-float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, eps: 5.9604645e-8, slow: 9.536_743e-7);
-float!(f64, 64, f64, sqrt: libm::sqrt, pow: libm::pow, eps: 1.1102230246251565e-16, slow: 1e-12);
+float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, exp: libm::expf, eps: 5.9604645e-8, slow: 9.536_743e-7);
+float!(f64, 64, f64, sqrt: libm::sqrt, pow: libm::pow, exp: libm::exp, eps: 1.1102230246251565e-16, slow: 1e-12);
 
 pub(crate) use constructors::{f32 as f32_constructors, f64 as f64_constructors};
