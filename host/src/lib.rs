@@ -20,5 +20,6 @@ pub mod render;
 pub mod sampling;
 pub mod show;
 pub mod stats;
+pub mod terms;
 pub mod toml;
 pub mod tree;

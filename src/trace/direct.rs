@@ -1,11 +1,12 @@
 //! Direct light: Lambert and Phong for each light that a shadow ray finds visible.
 
 use super::area::{Point, areas};
+use super::select::selected;
 use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, each, grey, has};
-use crate::scene::{Incident, Light, Material, Scene};
+use crate::scene::{Incident, Light, Material, Rules, Scene, Selection};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -35,6 +36,10 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) {
+    if has(USES, uses::LIGHT_SELECTION) && !matches!(scene.parts.selection, Selection::All) {
+        *sum = rgb(sum, &selected(scene, Point::of(&at), scratch, tally), A::gather);
+        return;
+    }
     let mut number = 0;
     each(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), |light| {
         if let Some(radiance) = of_light(scene, &mut at, light, number, scratch, tally) {
@@ -57,7 +62,6 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Radiance>> {
-    let rules = &scene.parts.rules;
     let Incident { direction, distance, irradiance } = light.at::<USES>(&at.shadow.origin)?;
     let cosine = A::cosine(&at.surface.normal, &direction);
     if cosine <= A::NO_WEIGHT {
@@ -72,33 +76,53 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     }
     at.shadow.direction = direction;
     tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-    let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {
+    let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
         tally.shadowed(number, at.depth);
         return None;
     };
-    // The weight down the tree goes to the cosines: it mostly is the same for all channels.
-    let weight = grey::<A, USES>(at.weight);
-    let seen = weight.map(|w| A::weight(w, cosine));
-    let mut factor = rgb(&at.material.diffuse, &seen, A::weight);
-    if has(USES, uses::HIGHLIGHTS) && at.material.shines && at.highlights {
-        // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
-        let lobe = A::cosine(at.mirror, &direction);
-        if lobe > A::NO_WEIGHT {
-            let mut highlight = A::power(lobe, &at.material.shininess);
-            if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
-                highlight = A::weight(highlight, cosine);
-            }
-            let seen = weight.map(|w| A::weight(w, highlight));
-            let shine = rgb(&at.material.specular, &seen, A::weight);
-            factor = rgb(&factor, &shine, |a, b| a + b);
-        }
-    }
+    let mut factor = factor::<A, USES>(
+        &scene.parts.rules,
+        at.material,
+        at.highlights.then_some(at.mirror),
+        cosine,
+        &direction,
+    );
     if has(USES, uses::COLORED_LIGHTS) {
         factor = rgb(&factor, &light.color, A::weight);
     }
+    let factor = rgb(&factor, &grey::<A, USES>(at.weight), A::weight);
     let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
     let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
     let radiance = factor.map(|f| A::dim(irradiance, f));
     tally.term::<A>(Term::Direct { light: number }, &radiance);
     Some(radiance)
+}
+
+/// The part of the irradiance from a direction (over π) that goes back along the ray: Lambert's
+/// term and, given the mirror direction of the ray, Phong's highlight. `cosine` is the one between normal and direction, positive.
+#[inline(always)]
+pub(super) fn factor<A: Arithmetic, const USES: u64>(
+    rules: &Rules<A>,
+    material: &Material<A>,
+    mirror: Option<&[A::Unit; 3]>,
+    cosine: A::Weight,
+    direction: &[A::Unit; 3],
+) -> Rgb<A::Weight> {
+    let diffuse = material.diffuse;
+    let factor = diffuse.map(|k| A::weight(k, cosine));
+    if has(USES, uses::HIGHLIGHTS)
+        && material.shines
+        && let Some(mirror) = mirror
+    {
+        // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
+        let lobe = A::cosine(mirror, direction);
+        if lobe > A::NO_WEIGHT {
+            let mut highlight = A::power(lobe, &material.shininess);
+            if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
+                highlight = A::weight(highlight, cosine);
+            }
+            return rgb(&factor, &material.specular, |f, k| f + A::weight(k, highlight));
+        }
+    }
+    factor
 }
