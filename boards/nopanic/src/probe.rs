@@ -22,7 +22,7 @@ use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
 use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
-use whitted::scene::{Absorption, Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec};
+use whitted::scene::{self, Absorption, Filter, Mapping, Pattern, Texels, Texture, TextureSpec};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
 use whitted::scene::{Group, Instance, Light, LightSpec, Selection};
 use whitted::scene::{Material, Shapes, Transform};
@@ -123,7 +123,8 @@ macro_rules! arithmetic {
                 samples: any([2, 9]),
                 body: any(Some(1)),
             };
-            let image = Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
+            let image =
+                scene::Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
             let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
             any(image.size());
             let texture = TextureSpec {
