@@ -10,14 +10,19 @@
 //! others as the mean of their colours), no bumps, and no medium before a surface; at total reflection the ray carries the transmission alone. The
 //! weakening of lights is POV-Ray's own formula, with a fade distance so small that it is 1/r² to
 //! four digits.
+//!
+//! Area lights become `area_light`s of 8×8 points, a triangle or polygon a disc of its area; their
+//! cosine is that of a spotlight towards their front (the angle to their middle); a body of theirs
+//! casts no shadow.
 
+use std::f64::consts::PI;
 use std::fmt::{self, Write as _};
 
 use whitted::scene::{Mapping, Pattern, TextureSpec, Wrap};
 
 use crate::document::{
-    Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Made, Material, Point,
-    ShadowThrough, Shape, Size, Solid, cross, dot, length, normalized, scaled, sub,
+    Area, Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Made, Material,
+    Point, ShadowThrough, Shape, Size, Solid, add, cross, dot, length, normalized, scaled, sub,
 };
 
 /// The scene for pictures of a size, whose proportions the camera has.
@@ -39,6 +44,9 @@ impl fmt::Display for V {
 }
 
 fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
+    let mut document = document.clone();
+    let lit = document.embody();
+    let document = &document;
     let rules = &document.rules;
     writeln!(out, "#version 3.7;")?;
     writeln!(
@@ -77,11 +85,11 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
             writeln!(out, "#declare T{index} = {}", pattern(index, checker))?;
         }
     }
-    shapes(&document.shapes, None, document, out)?;
+    shapes(&document.shapes, None, &lit, document, out)?;
     for instance in &document.instances {
         let Some(group) = document.groups.get(instance.group) else { continue };
         writeln!(out, "union {{")?;
-        shapes(&group.shapes, instance.material, document, out)?;
+        shapes(&group.shapes, instance.material, &[], document, out)?;
         let [x, y, z] = instance.place.columns;
         let rows = [x, y, z, instance.place.offset].map(|v| v.map(|x| x.to_string()).join(", "));
         writeln!(out, "matrix <{}> }}", rows.join(", "))?;
@@ -89,21 +97,23 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
     Ok(())
 }
 
-/// Shapes with their textures, or all with that of one material.
+/// Shapes with their textures, or all with that of one material; those that show lights are in `lit`.
 fn shapes(
     shapes: &[Shape],
     instead: Option<usize>,
+    lit: &[Option<usize>],
     document: &Document,
     out: &mut String,
 ) -> fmt::Result {
-    for shape in shapes {
+    for (number, shape) in shapes.iter().enumerate() {
         let index = instead.unwrap_or(shape.material);
         let Some(material) = document.materials.get(index) else { continue };
         body(&shape.body, out)?;
         let ior = material.index_behind / material.index_front;
         let shadow = material.shadow;
         let twin = shadow == ShadowThrough::Opaque && material.transmits();
-        let mark = if twin || shadow == ShadowThrough::None { " no_shadow" } else { "" };
+        let lit = lit.contains(&Some(number));
+        let mark = if twin || lit || shadow == ShadowThrough::None { " no_shadow" } else { "" };
         writeln!(
             out,
             " texture {{ T{index} }} interior {{ ior {ior}{} }}{mark} }}",
@@ -162,7 +172,53 @@ fn light(light: &Light, document: &Document, out: &mut String) -> fmt::Result {
             V(color),
             V([0, 1, 2].map(|i| position[i] + direction[i]))
         ),
+        LightKind::Area { area, .. } => area_light(area, color, &fade, out),
     }
+}
+
+fn area_light(area: &Area, color: Point, fade: &str, out: &mut String) -> fmt::Result {
+    let doubled = |corners: &[Point]| {
+        (2..corners.len()).fold([0.0; 3], |sum, i| {
+            let (a, b) = (sub(corners[i - 1], corners[0]), sub(corners[i], corners[0]));
+            add(sum, cross(a, b))
+        })
+    };
+    let (normal, size) = match area {
+        Area::Rectangle { edges: [u, v], .. } => (cross(*u, *v), length(cross(*u, *v))),
+        Area::Triangle { corners } => (doubled(corners), length(doubled(corners)) / 2.0),
+        Area::Polygon { corners } => (doubled(corners), length(doubled(corners)) / 2.0),
+        Area::Disc { normal, radius, .. } => (*normal, PI * radius * radius),
+        Area::Sphere { radius, .. } => ([0.0, 1.0, 0.0], PI * radius * radius),
+    };
+    let front = normalized(normal).unwrap_or([0.0, 1.0, 0.0]);
+    let (u, v, round) = if let Area::Rectangle { edges: [u, v], .. } = area {
+        (*u, *v, "")
+    } else {
+        let least = (0..3).min_by(|&a, &b| front[a].abs().total_cmp(&front[b].abs())).unwrap_or(0);
+        let mut from = [0.0; 3];
+        from[least] = 1.0;
+        let u = normalized(cross(from, front)).unwrap_or([1.0, 0.0, 0.0]);
+        let diameter = 2.0 * (size / PI).sqrt();
+        let round =
+            if matches!(area, Area::Sphere { .. }) { " circular orient" } else { " circular" };
+        (scaled(u, diameter), scaled(cross(front, u), diameter), round)
+    };
+    let middle = area.center();
+    let cosine = match area {
+        Area::Sphere { .. } => String::new(),
+        _ => {
+            let at = V(add(middle, front)).to_string();
+            format!(" spotlight point_at {at} radius 89.9 falloff 89.99 tightness 1")
+        }
+    };
+    writeln!(
+        out,
+        "light_source {{ {} rgb {} area_light {}, {}, 8, 8{round}{fade}{cosine} }}",
+        V(middle),
+        V(scaled(color, size / PI)),
+        V(u),
+        V(v)
+    )
 }
 
 /// The texture of a material, without its pattern.
@@ -181,12 +237,18 @@ fn texture(document: &Document, index: usize) -> String {
         let light = m.ambient[i] * document.ambient[i];
         if m.diffuse[i] > 0.0 { light / m.diffuse[i] } else { 0.0 }
     });
+    // The pigment's colour dims its emission too.
+    let black = m.diffuse == [0.0; 3] && largest == 0.0;
+    let color = if black { m.emission } else { color };
+    let emission = [0, 1, 2].map(|i| if color[i] > 0.0 { m.emission[i] / color[i] } else { 0.0 });
+    let diffuse = if black { 0 } else { 1 };
     let phong = (m.specular[0] + m.specular[1] + m.specular[2]) / 3.0;
     format!(
-        "texture {{ pigment {{ {} }} finish {{ ambient rgb {} diffuse 1 \
-         phong {phong} phong_size {} reflection {{ {} }} }} }}",
+        "texture {{ pigment {{ {} }} finish {{ ambient rgb {} emission rgb {} \
+         diffuse {diffuse} phong {phong} phong_size {} reflection {{ {} }} }} }}",
         pigment(m, color, &through),
         V(ambient),
+        V(emission),
         m.shininess,
         if m.fresnel {
             format!("rgb 0, rgb {} fresnel on", V(m.reflection))

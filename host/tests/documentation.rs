@@ -39,6 +39,14 @@ fn every_key_is_documented() {
             "{SMALLEST}{MATERIAL}[[light]]\ntype = \"spot\"\nposition = {point}\n\
              direction = {point}\nzzz = 1\n"
         ),
+        format!(
+            "{SMALLEST}{MATERIAL}[[light]]\ntype = \"rectangle\"\nradiance = 1\n\
+             corner = {point}\nedges = [[1, 0, 0], [0, 1, 0]]\nzzz = 1\n"
+        ),
+        format!(
+            "{SMALLEST}{MATERIAL}[[light]]\ntype = \"disc\"\nradiance = 1\n\
+             center = {point}\nnormal = {point}\nradius = 1\nzzz = 1\n"
+        ),
         format!("{SMALLEST}{MATERIAL}[[plane]]\npoint = {point}\nnormal = {point}\nzzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}zzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}[[box]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nzzz = 1\n"),

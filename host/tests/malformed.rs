@@ -69,6 +69,26 @@ const NFF_FILES: &[(&[u8], &str)] = &[
 
 /// Lines that are wrong after `GOOD`, and what the error says.
 const TOML: &[(&str, &str)] = &[
+    ("[indirect]", ":9: key \"type\" of this indirect is missing"),
+    (
+        "[indirect]\ntype = \"photons\"",
+        ":10: unknown word \"photons\"; known: cache, virtual-lights",
+    ),
+    ("[indirect]\ntype = \"cache\"\nerror = 2", ":11: error 2 is out of range: it must be 0.05"),
+    ("[indirect]\ntype = \"cache\"\nrays = 0", ":11: rays 0 is out of range: it must be 1 to"),
+    ("[indirect]\ntype = \"cache\"\nlights = 4", ":11: unknown key \"lights\"; known: type, error"),
+    (
+        "[indirect]\ntype = \"cache\"\nnearest = 2\nfarthest = 1",
+        ":9: indirect: \"nearest\" is larger than \"farthest\"",
+    ),
+    (
+        "[indirect]\ntype = \"virtual-lights\"\ntile = 3",
+        ":11: tile 3 is out of range: it must be 1, 2 or 4",
+    ),
+    (
+        "[indirect]\ntype = \"virtual-lights\"\nbounces = 5",
+        ":11: bounces 5 is out of range: it must be 1 to 4",
+    ),
     ("radius = 2", ":9: duplicate key"),
     ("colour = 1", ":9: unknown key \"colour\"; known: material, center, radius"),
     ("[[sphere]]\ncenter = [0, 0, 0]", ":9: key \"radius\" of this sphere is missing"),
@@ -243,6 +263,50 @@ const TOML: &[(&str, &str)] = &[
         "[[light]]\ntype = \"area\"\nposition = [0, 0, 0]",
         ":10: unknown word \"area\"; known: point",
     ),
+    ("[[light]]\ntype = \"rectangle\"", ":9: key \"radiance\" of this light is missing"),
+    ("[[light]]\ntype = \"disc\"\nradiance = -1", ":11: radiance -1 is out of range"),
+    ("[[light]]\ntype = \"disc\"\nradiance = 2000\nvisible = true", ":11: radiance 2000 is out"),
+    (
+        "[[light]]\ntype = \"sphere\"\nradiance = 1\ncenter = [0, 0, 0]\nradius = 0",
+        ":13: radius 0 is",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nerror = 0", ":12: error 0 is out of range"),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = 5", ":12: found 5 for \"samples\""),
+    (
+        "[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = [5, 4]",
+        ":12: samples 4 is out of range",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = [5, 2000]", ":12: samples 2000 is out"),
+    (
+        "[[light]]\ntype = \"rectangle\"\nradiance = 1\ncorner = [0, 0, 0]\nedges = [[1, 0, 0]]",
+        ":13: found a list of 1 for \"edges\"; a list of two edges",
+    ),
+    (
+        "[[light]]\ntype = \"rectangle\"\nradiance = 1\ncorner = [0, 0, 0]\n\
+         edges = [[1, 0, 0], [2, 0, 0]]",
+        ":9: rectangle light: its corners lie on a line",
+    ),
+    (
+        "[[light]]\ntype = \"triangle\"\nradiance = 1\ncorners = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]",
+        ":9: triangle light: its corners lie on a line",
+    ),
+    (
+        "[[light]]\ntype = \"polygon\"\nradiance = 1\n\
+         corners = [[0, 0, 0], [2, 0, 0], [0.5, 0.5, 0], [0, 2, 0]]",
+        ":9: polygon light: it is concave",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nposition = [0, 0, 0]", ":9: key \"center\" of"),
+    ("[render]\nlights = \"some\"", ":10: unknown word \"some\"; known: all"),
+    ("[render]\nlights = { choose = 0 }", ":10: choose 0 is out of range: it must be 1 to 255"),
+    ("[render]\nlights = { threshold = -1 }", ":10: threshold -1 is out of range"),
+    ("[render]\nlights = {}", ":10: either \"threshold\" or \"choose\" of this lights is missing"),
+    ("[render]\nlights = { chose = 1 }", ":10: unknown key \"chose\"; known: threshold, choose"),
+    ("[render]\nterms = [\"direct\", \"gloss\"]", ":10: unknown word \"gloss\"; known: emission"),
+    ("[render]\nterms = [\"specular\"]", ":10: terms: reflection and transmission lead on"),
+    ("[render]\nterms = \"direct\"", ":10: found \"direct\" for \"terms\"; a list of words"),
+    ("[render]\nseed = 70000", ":10: seed 70000 is out of range: it must be 0 to 65535"),
+    ("[render]\nlight_jitter = 1", ":10: found 1 for \"light_jitter\"; true or false"),
+    ("[[material]]\nname = \"a\"\nemission = 2000", ":11: emission 2000 is out of range"),
     ("[[light]]\nintensity = 3", ":9: key \"position\" of this light is missing"),
     ("[[light]]\nposition = [0, 0, 0]\ndirection = [0, 0, 1]", ":11: unknown key \"direction\""),
     ("[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 1, 0]", ":9: spot light: it"),

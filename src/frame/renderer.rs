@@ -8,7 +8,7 @@ use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
-use crate::trace::{Tracer, Work};
+use crate::trace::{Terms, Tracer, Work};
 use core::ops::Range;
 
 /// The larger side of a picture at most.
@@ -83,7 +83,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         samples: &'a mut [Sample<A>],
         tally: T,
     ) -> Result<Self, FrameError> {
-        let Settings { width, height, depth, sampling } = settings;
+        let Settings { width, height, depth, sampling, terms } = settings;
         if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
             return Err(FrameError::Size);
         }
@@ -92,7 +92,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return Err(FrameError::Depth { depth, max });
         }
         sampling.check()?;
-        if !has(USES, sampling.uses()) {
+        if !has(USES, sampling.uses()) || (terms != Terms::ALL && !has(USES, uses::TERMS)) {
             return Err(FrameError::Tailored);
         }
         let needed = sampling.samples(width);
@@ -100,7 +100,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return Err(FrameError::Samples { needed });
         }
         Ok(Self {
-            tracer: Tracer::new(scene, depth),
+            tracer: Tracer::new(scene, depth).with_terms(terms),
             view: View::new(camera, width, height),
             settings,
             work,
@@ -176,13 +176,22 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
+        self.prepare(row, x, fraction);
+        self.radiance(&ray)
+    }
+
+    /// Prepares for a ray.
+    #[inline(always)]
+    fn prepare(&mut self, row: &Row<A>, x: u16, fraction: u8) {
         if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
+        }
+        if has(USES, uses::TREE) {
+            self.work.begin_row(row.number());
         }
         if has(USES, uses::VIRTUAL_LIGHTS) {
             self.tracer.set_turn(row.in_tile(x));
         }
-        self.radiance(&ray)
     }
 
     /// What the ray finds that is so many 1/256 of a pixel right of and below the upper left corner
@@ -191,12 +200,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     pub(super) fn sample(&mut self, x: u16, right: u8, y: u16, down: u8) -> Sample<A> {
         let row = self.view.row(y, down);
         let ray = self.view.ray(&row, x, right);
-        if uses::has_random(USES) {
-            self.tracer.set_key(row.key(x, right));
-        }
-        if has(USES, uses::VIRTUAL_LIGHTS) {
-            self.tracer.set_turn(row.in_tile(x));
-        }
+        self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)

@@ -299,6 +299,10 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     fn power(cos: Self::Weight, n: &Self::Exponent) -> Self::Weight;
     /// `r·w`.
     fn dim(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
+    /// `a/b` for radiances, at most 15.99; 0 for b = 0.
+    fn relative(a: Self::Radiance, b: Self::Radiance) -> Self::Weight;
+    /// `r·part/2³²`, less than r where r isn't 0.
+    fn portion(r: Self::Radiance, part: u32) -> Self::Radiance;
     /// `r/w`, for a weighted mean: `w` from 1/64 to 1024, the quotient below 1024.
     fn over_weight(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
     /// `middle + slope·u`, not below 0, for |slope| ≤ middle.

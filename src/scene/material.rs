@@ -108,6 +108,8 @@ pub struct Material<A: Arithmetic> {
     /// Which coefficients are not 0.
     pub(crate) shines: bool,
     pub(crate) reflects: bool,
+    /// The same, whatever terms a render leaves out.
+    pub(crate) mirrors: bool,
     pub(crate) transmits: bool,
     pub(crate) emits: bool,
 }
@@ -255,6 +257,7 @@ for_each_arithmetic! {
                 fresnel: spec.fresnel,
                 shines: any(&spec.specular),
                 reflects: any(&spec.reflection),
+                mirrors: any(&spec.reflection),
                 transmits: any(&spec.transmission),
                 emission: [
                     some_or!(make::radiance(spec.emission[0]), Coefficient),

@@ -34,6 +34,7 @@ mod group;
 mod instance;
 mod light;
 mod material;
+mod selection;
 mod shapes;
 mod texture;
 mod transform;
@@ -48,6 +49,7 @@ pub use group::Group;
 pub use instance::Instance;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
+pub use selection::Selection;
 pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
 pub use texture::{
@@ -159,6 +161,8 @@ pub struct Parts<'a, A: Arithmetic> {
     /// Where in its part of an area light a shadow ray goes: through the middle, or at random,
     /// given a seed. The same seed gives the same picture on every machine.
     pub light_jitter: Option<u16>,
+    /// Which lights a point asks.
+    pub selection: Selection<A>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
     /// What surfaces send each other, instead of the ambient term.
@@ -194,6 +198,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         area_lights: &[],
         light_corners: &[],
         light_jitter: None,
+        selection: Selection::All,
         ambient: Ambient([A::BLACK; 3]),
         indirect: Indirect::None,
         background: Background::BLACK,
@@ -403,14 +408,6 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
     /// What the scene was put together from.
     pub const fn parts(&self) -> &Parts<'a, A> {
         &self.parts
-    }
-
-    /// Whether a shape is the body of an area light: its emission is counted by direct sampling, so
-    /// rays that gather irradiance leave it out.
-    #[inline(always)]
-    pub fn lists(&self, shape: u32) -> bool {
-        has(USES, uses::AREA_LIGHTS)
-            && self.parts.area_lights.iter().any(|light| light.body == shape)
     }
 
     /// The material at a point of a shape, the checker resolved.

@@ -8,11 +8,14 @@ mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod select;
 mod site;
+mod terms;
 mod visible;
 mod work;
 
 pub(crate) use area::point_of_light;
 pub use nearest::Hit;
 pub use radiance::Tracer;
+pub use terms::{Paths, Terms};
 pub use work::Work;

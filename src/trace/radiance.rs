@@ -9,6 +9,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
+use super::terms::Terms;
 use super::work::{Scratch, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
@@ -50,6 +51,7 @@ pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
     gathering: bool,
     key: u32,
+    terms: Terms,
     /// Whose turn it is among virtual lights.
     turn: u8,
 }
@@ -58,7 +60,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth, key: 0, turn: 0, gathering: false }
+        Self { scene, depth, key: 0, turn: 0, gathering: false, terms: Terms::ALL }
     }
 
     /// A tracer for rays that gather irradiance: what they see of the lights is counted elsewhere.
@@ -75,7 +77,23 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         Self { key, ..self }
     }
 
-    /// The place of the pixel whose rays follow: see [`Row::in_tile`](crate::scene::Row).
+    /// The same for a pixel at this [`Row::in_tile`](crate::scene::Row::in_tile): whose turn it is
+    /// among virtual lights.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_turn(self, turn: u8) -> Self {
+        Self { turn, ..self }
+    }
+
+    /// The same, adding up these terms alone; all, if the scene is tailored without
+    /// [`uses::TERMS`].
+    #[inline(always)]
+    #[must_use]
+    pub fn with_terms(self, terms: Terms) -> Self {
+        Self { terms, ..self }
+    }
+
+    /// The place of the pixel whose rays follow: see [`with_turn`](Self::with_turn).
     #[inline(always)]
     pub(crate) fn set_turn(&mut self, turn: u8) {
         self.turn = turn;
@@ -145,6 +163,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             }
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
             let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
+                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => false,
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
@@ -228,6 +247,15 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             path.weight = detail::absorbed(scene, absorption, surface.behind, way, path.weight);
         }
 
+        let (some, whole) = (has(USES, uses::TERMS) && self.terms != Terms::ALL, material);
+        let masked;
+        let material = if some {
+            masked = self.terms.of(whole);
+            &masked
+        } else {
+            whole
+        };
+
         if has(USES, uses::EMISSION)
             && material.emits
             && (!surface.behind || place.material.inside_only())
@@ -257,11 +285,13 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 scratch,
                 tally,
             ) {
-            (&material.diffuse, irradiance, Term::Indirect)
+            let left_out = some && !self.terms.has(Terms::INDIRECT);
+            let share = if left_out { [A::NO_WEIGHT; 3] } else { whole.diffuse };
+            (share, irradiance, Term::Indirect)
         } else {
-            (&material.ambient, scene.parts.ambient.0, Term::Ambient)
+            (material.ambient, scene.parts.ambient.0, Term::Ambient)
         };
-        let radiance = rgb(&rgb(share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
+        let radiance = rgb(&rgb(&share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
         tally.term::<A>(term, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 

@@ -22,16 +22,16 @@ use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
 use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
-use whitted::scene::{Absorption, Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec};
+use whitted::scene::{self, Absorption, Filter, Mapping, Pattern, Texels, Texture, TextureSpec};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
-use whitted::scene::{Group, Instance, Light, LightSpec};
+use whitted::scene::{Group, Instance, Light, LightSpec, Selection};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::scene::{TriangleUv, Wrap};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
 use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
-use whitted::trace::{Tracer, Work};
+use whitted::trace::{Terms, Tracer, Work};
 use whitted::{Color, Picture};
 
 /// Where linking starts from.
@@ -123,7 +123,8 @@ macro_rules! arithmetic {
                 samples: any([2, 9]),
                 body: any(Some(1)),
             };
-            let image = Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
+            let image =
+                scene::Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
             let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
             any(image.size());
             let texture = TextureSpec {
@@ -211,6 +212,7 @@ macro_rules! arithmetic {
                 area_lights: any(&area_lights),
                 light_corners: any(&fan),
                 light_jitter: any(Some(3)),
+                selection: any(Selection::<$a>::try_above(any(0.1)).ok()?),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
                 indirect: any(Indirect::None),
                 background: any(background.ok()?),
@@ -247,7 +249,6 @@ macro_rules! arithmetic {
             }
             let scene = any(scene.ok()?);
             any(scene.parts());
-            any(scene.lists(any(2)));
             let scene = any(scene.with_instances(any(&instances)).ok()?);
             any(spheres[0].at(any(spheres[1].center())).radius());
 
@@ -326,6 +327,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let settings = Settings {
         depth: any(5),
         sampling: any(Sampling::Corners),
+        terms: any(Terms::DIRECT.with(Terms::AMBIENT).without(Terms::NONE)),
         ..Settings::new(any(60), any(60))
     };
     any(settings.sampling.samples(any(60)));
@@ -356,7 +358,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
-    let tracer = any(Tracer::new(scene, any(5)).with_key(any(7)));
+    let tracer = any(Tracer::new(scene, any(5)).with_key(any(7)).with_terms(any(Terms::ALL)));
     let mut tally = tally;
     any(tracer.nearest(&ray, &mut work, &mut tally));
     any(tracer.radiance(ray, &mut work, &mut tally));
@@ -489,6 +491,8 @@ fn lengths<A: Arithmetic>() {
     any(A::weight(w, w));
     any(A::quotient(w, w));
     any(A::weight_of(u));
+    any(A::relative(r, r));
+    any(A::portion(r, any(7)));
     any(A::fraction(any(7)));
     any(A::share(t, &any(A::normalize(&p).2)));
     any(A::dim(r, w));

@@ -3,11 +3,13 @@
 //! The core's constructors are const fns of each arithmetic, and a const fn can't be a trait's.
 //! Here they are, as a trait.
 
+use whitted::gather::{Gathering, GatheringSpec, VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
-    Absorption, Ambient, Background, Camera, Group, Instance, Light, LightSpec, Material,
-    MaterialSpec, Parts, Scene, SceneError, Shapes, Texture, TextureSpec, Transform,
+    Absorption, Ambient, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Group, Instance,
+    Light, LightSpec, Material, MaterialSpec, Parts, Scene, SceneError, Selection, Shapes, Texture,
+    TextureSpec, Transform,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
@@ -115,6 +117,13 @@ construct! {
     fn new_plane(normal: Point, offset: f64, material: u16) -> Made<Plane<Self>>
         = |A| Plane::<A>::try_new(normal, offset, material);
 
+    /// See [`Gathering`].
+    fn new_gathering(spec: &GatheringSpec) -> Made<Gathering<Self>>
+        = |A| Gathering::<A>::try_new(spec);
+    /// See [`VirtualLightsSettings`].
+    fn new_virtual_lights(spec: &VirtualLightsSpec) -> Made<VirtualLightsSettings<Self>>
+        = |A| VirtualLightsSettings::<A>::try_new(spec);
+
     /// Where a sphere lies.
     fn sphere_extent(shape: &Sphere<Self>, log2_step: i8) -> Extent
         = |A| { let shape: &Sphere<A> = shape; shape.extent(log2_step) };
@@ -157,6 +166,15 @@ construct! {
     /// See [`Light`].
     fn new_light(spec: &LightSpec) -> Made<Light<Self>>
         = |A| Light::<A>::try_new(spec);
+    /// See [`AreaLight`].
+    fn new_area_light(spec: &AreaLightSpec<'_>) -> Made<AreaLight<Self>>
+        = |A| AreaLight::<A>::try_new(spec);
+    /// See [`Selection`].
+    fn new_threshold(radiance: f64) -> Made<Selection<Self>>
+        = |A| Selection::<A>::try_above(radiance);
+    /// See [`AreaLight::fan`].
+    fn new_fan_corner(corners: &[Point], i: usize) -> Made<FanCorner<Self>>
+        = |A| AreaLight::<A>::try_fan(corners, i);
     /// See [`Camera`]; `tangent` is that of half the vertical angle from edge to edge.
     fn new_camera(eye: Point, at: Point, up: Point, tangent: f64) -> Made<Camera<Self>>
         = |A| Camera::<A>::try_look_at(eye, at, up, tangent);

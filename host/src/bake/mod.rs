@@ -2,21 +2,23 @@
 
 mod construct;
 mod group;
+mod light;
 mod place;
 mod shapes;
 
 pub use construct::Construct;
 use group::Groups;
+use light::Lights;
 pub use place::Placement;
 use shapes::Shapes;
 
 use whitted::scene::{
-    Absorption, Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec,
-    Parts, PatternSpec, Rules, Scene, Shadow, Texture, TextureSpec,
+    Absorption, Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules,
+    Scene, Selection, Shadow, Texture, TextureSpec,
 };
 use whitted::shape::ShapeError;
 
-use crate::document::{self, Document, LightKind, ShadowThrough, Size};
+use crate::document::{self, Document, LightSelection, ShadowThrough, Size};
 use crate::error::{Flaw, Problem};
 use std::path::Path;
 
@@ -31,7 +33,7 @@ pub struct Baked<A: Construct> {
     materials: Vec<Material<A>>,
     textures: Vec<Texture<'static, A>>,
     absorptions: Vec<Absorption<A>>,
-    lights: Vec<Light<A>>,
+    lights: Lights<A>,
     ambient: Ambient<A>,
     background: Background<A>,
 }
@@ -43,20 +45,22 @@ impl<A: Construct> Baked<A> {
     /// What of it the arithmetic can't hold, with its line.
     pub fn new(document: &Document) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
-        let placed = placement.place(document);
+        let mut placed = placement.place(document);
+        let bodies = placed.embody();
         let background = match placed.background {
             document::Background::Color(color) => A::new_uniform(color),
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
         let detail = detail(&placed)?;
+        let shapes = Shapes::new(&placed.shapes, placed.bounds(), |i| placed.file_of_shape(i))?;
         let baked = Self {
             placement,
-            shapes: Shapes::new(&placed.shapes, placed.bounds(), |i| placed.file_of_shape(i))?,
             groups: Groups::new(&placed)?,
             materials: materials(&placed)?,
             textures: detail.textures,
             absorptions: detail.absorptions,
-            lights: lights(&placed)?,
+            lights: Lights::new(&placed, &shapes, &bodies)?,
+            shapes,
             ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
             background: background.map_err(|e| refused::<A>("the background", e, None))?,
@@ -79,7 +83,16 @@ impl<A: Construct> Baked<A> {
             materials: &self.materials,
             textures: &self.textures,
             absorptions: &self.absorptions,
-            lights: &self.lights,
+            lights: &self.lights.points,
+            area_lights: &self.lights.areas,
+            light_corners: &self.lights.corners,
+            light_jitter: rules.light_jitter,
+            selection: match rules.lights {
+                LightSelection::All => Selection::All,
+                LightSelection::Choose(count) => Selection::Choose(count),
+                LightSelection::Threshold(radiance) => A::new_threshold(radiance)
+                    .map_err(|e| refused::<A>("the threshold of the lights", e, None))?,
+            },
             ambient: self.ambient,
             background: self.background,
             rules: Rules {
@@ -222,33 +235,4 @@ fn detail<A: Construct>(document: &Document) -> Result<Detail<A>, Flaw> {
         }
     }
     Ok(detail)
-}
-
-fn lights<A: Construct>(document: &Document) -> Result<Vec<Light<A>>, Flaw> {
-    let from = |i| document.file_of_light(i);
-    let all = document.lights.iter().enumerate();
-    all.map(|(i, l)| light(l).map_err(|flaw: Flaw| flaw.within(from(i)))).collect()
-}
-
-fn light<A: Construct>(light: &document::Light) -> Result<Light<A>, Flaw> {
-    let weakens = |falloff| match falloff {
-        document::Falloff::None => Falloff::None,
-        document::Falloff::InverseSquare => Falloff::InverseSquare,
-    };
-    let intensity = light.color;
-    let spec = match light.kind {
-        LightKind::Point { position, falloff } => {
-            LightSpec::Point { position, intensity, falloff: weakens(falloff) }
-        }
-        LightKind::Directional { direction } => LightSpec::Directional { direction, intensity },
-        LightKind::Spot { position, direction, inner, outer, falloff } => LightSpec::Spot {
-            position,
-            direction,
-            intensity,
-            falloff: weakens(falloff),
-            cos_inner: inner.to_radians().cos(),
-            cos_outer: outer.to_radians().cos(),
-        },
-    };
-    A::new_light(&spec).map_err(|error| refused::<A>("the light", error, Some(light.line)))
 }

@@ -16,8 +16,8 @@
 use whitted::scene::{Mapping, TextureSpec};
 
 use crate::document::{
-    Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, length, scaled,
-    sub,
+    Area, Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, length,
+    scaled, sub,
 };
 
 /// The farthest a light or the camera may lie along an axis: the range is ±1024, and a
@@ -60,7 +60,7 @@ impl Placement {
         let radius = half * 3f64.sqrt();
         let lights =
             document.lights.iter().filter(|light| planes || !parallel(light, center, radius));
-        let positions = lights.filter_map(Light::position).chain([document.camera.eye]);
+        let positions = lights.flat_map(Light::reach).chain([document.camera.eye]);
         for position in positions {
             let farthest = sub(position, center).map(f64::abs).into_iter().fold(0.0, f64::max);
             if farthest > 0.0 {
@@ -208,11 +208,28 @@ impl Placement {
         }
         match &mut light.kind {
             LightKind::Directional { .. } => {}
+            LightKind::Area { area, .. } => self.area(area),
             LightKind::Point { position, falloff } | LightKind::Spot { position, falloff, .. } => {
                 *position = self.point(*position);
                 if *falloff == Falloff::InverseSquare {
                     light.color = light.color.map(|c| c * self.scale() * self.scale());
                 }
+            }
+        }
+    }
+
+    fn area(&self, area: &mut Area) {
+        let s = self.scale();
+        match area {
+            Area::Rectangle { corner, edges } => {
+                *corner = self.point(*corner);
+                *edges = edges.map(|edge| scaled(edge, s));
+            }
+            Area::Triangle { corners } => *corners = corners.map(|c| self.point(c)),
+            Area::Polygon { corners } => corners.iter_mut().for_each(|c| *c = self.point(*c)),
+            Area::Disc { center, radius, .. } | Area::Sphere { center, radius } => {
+                *center = self.point(*center);
+                *radius *= s;
             }
         }
     }
@@ -255,6 +272,7 @@ impl Placement {
 /// would move.
 fn parallel(light: &Light, center: Point, radius: f64) -> bool {
     match light.kind {
+        LightKind::Area { .. } => false,
         LightKind::Point { position, .. } => radius < PARALLEL * length(sub(position, center)),
         LightKind::Directional { .. } | LightKind::Spot { .. } => false,
     }
@@ -316,7 +334,8 @@ mod tests {
         let document = document(&light("position = [100, 31643, 100]\nintensity = 1e9"), "");
         let placement = Placement::filling(&document);
         assert_eq!(placement.log2_scale, 6);
-        let light = placement.place(&document).lights[0];
+        let placed = placement.place(&document);
+        let light = &placed.lights[0];
         assert!(matches!(light.kind, LightKind::Directional { direction } if direction[1] < 0.0));
         assert!((light.color[0] - 1e9 / 31623f64.powi(2)).abs() < 1e-9);
     }

@@ -298,6 +298,11 @@ impl<A: Construct> Shapes<A> {
         Err(left as u32)
     }
 
+    /// The number of the shape of this index in the document.
+    pub(super) fn number(&self, index: usize) -> Option<u32> {
+        (0..self.bounded()).find(|&number| self.origin(number) == Ok(index))
+    }
+
     /// Words and levels of the tree, if there is one.
     pub(super) fn tree(&self) -> Option<(usize, u8)> {
         self.tree.as_ref().map(|tree| (tree.words.len(), tree.levels))

@@ -11,6 +11,7 @@
 mod background;
 mod camera;
 mod group;
+mod indirect;
 mod light;
 mod material;
 mod place;
@@ -24,10 +25,11 @@ mod vector;
 pub use background::Background;
 pub use camera::{Camera, Span};
 pub use group::{Group, Instance};
-pub use light::{Falloff, Light, LightKind};
+pub use indirect::{Cache, Indirect, VirtualLights, distances};
+pub use light::{Area, Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
-pub use rules::Rules;
+pub use rules::{LightSelection, Rules};
 pub use shape::{Body, Shape};
 pub use solid::{Made, Solid};
 pub use texture::Texture;
@@ -80,6 +82,8 @@ pub struct Document {
     pub background: Background,
     /// E_amb of the model: the irradiance that comes from everywhere, divided by π.
     pub ambient: Rgb,
+    /// The light that surfaces send each other, instead of the ambient term.
+    pub indirect: Option<Indirect>,
     /// What the classic programs differ in.
     pub rules: Rules,
     /// The materials; shapes and checkers name them by index.
@@ -115,11 +119,37 @@ pub struct Included {
 }
 
 impl Document {
-    /// The box around all shapes that end; `None` where there are none.
+    /// The box around all shapes that end, and visible lights; `None` where there are none.
     pub fn bounds(&self) -> Option<Bounds> {
+        let shown = self.lights.iter().filter_map(|light| light.body()?.bounds());
         let shapes = self.shapes.iter().filter_map(|shape| shape.body.bounds());
         let instances = self.instances.iter().filter_map(|instance| instance.bounds(self));
-        shapes.chain(instances).reduce(Bounds::union)
+        shapes.chain(shown).chain(instances).reduce(Bounds::union)
+    }
+
+    /// Adds the shapes that show visible lights, of materials that emit the same; for each light
+    /// the index of its shape.
+    pub fn embody(&mut self) -> Vec<Option<usize>> {
+        let mut indices = Vec::new();
+        for light in &self.lights {
+            let Some(body) = light.body() else {
+                indices.push(None);
+                continue;
+            };
+            let like = Material::matt(light.line);
+            let (emission, black) = (light.color, [0.0; 3]);
+            indices.push(Some(self.shapes.len()));
+            let material = self.materials.len();
+            self.shapes.push(Shape { body, material, uv: None, line: light.line });
+            self.materials.push(Material {
+                name: "light".into(),
+                emission,
+                diffuse: black,
+                ambient: black,
+                ..like
+            });
+        }
+        indices
     }
 
     /// The file that a shape came from, if it isn't the document's own.

@@ -131,13 +131,17 @@ impl Light {
     /// Lengths don't all grow by the same.
     pub fn placed(&self, by: &Transform) -> Result<Self, Refusal> {
         let scale = by.uniform_scale().ok_or(LIT)?;
-        let mut light = *self;
+        let mut light = self.clone();
         match &mut light.kind {
             LightKind::Point { position, .. } => *position = by.point(*position),
             LightKind::Directional { direction } => *direction = by.direction(*direction),
             LightKind::Spot { position, direction, .. } => {
                 *position = by.point(*position);
                 *direction = by.direction(*direction);
+            }
+            LightKind::Area { area, .. } => {
+                *area = area.placed(by, scale);
+                return Ok(light);
             }
         }
         if self.falloff() == Falloff::InverseSquare {

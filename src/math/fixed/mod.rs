@@ -425,6 +425,17 @@ impl Arithmetic for Fixed {
         I16F16::from_bits(p as i32)
     }
 
+    fn relative(a: I16F16, b: I16F16) -> Weight {
+        light::relative(a, b)
+    }
+
+    #[inline(always)]
+    fn portion(r: I16F16, part: u32) -> I16F16 {
+        I16F16::from_bits(
+            (u64::from(r.to_bits() as u32).wrapping_mul(u64::from(part)) >> 32) as i32,
+        )
+    }
+
     #[inline(always)]
     fn over_weight(r: I16F16, w: Weight) -> I16F16 {
         I16F16::from_bits(kernel::ratio(r.to_bits(), w.to_bits(), 14) as i32)

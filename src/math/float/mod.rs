@@ -375,6 +375,19 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn relative(a: $f, b: $f) -> $f {
+                let most = 15.99;
+                let ratio = if b > 0.0 { a / b } else { 0.0 };
+                if ratio < most { ratio } else { most }
+            }
+
+            #[inline(always)]
+            fn portion(r: $f, part: u32) -> $f {
+                // As many bits as any float has, so that the part stays below 1.
+                r * ((part >> 8) as $f * (1.0 / 16777216.0))
+            }
+
+            #[inline(always)]
             fn over_weight(r: $f, w: $f) -> $f {
                 if w > 0.0 { r / w } else { 0.0 }
             }
