@@ -120,9 +120,11 @@ impl From<ShowName> for Show {
     }
 }
 
-/// The paths of light that pictures of a scene cover. Interreflection isn't there to show.
-fn covered(document: &Document, depth: u8) -> Paths {
-    document.rules.terms.without(Terms::INDIRECT).paths(depth)
+/// The paths of light that pictures of a scene cover: interreflection instead of the ambient term,
+/// where there is any.
+fn covered(document: &Document, depth: u8, indirect: Option<Indirect>) -> Paths {
+    let replaced = if indirect.is_some() { Terms::AMBIENT } else { Terms::INDIRECT };
+    document.rules.terms.without(replaced).paths(depth)
 }
 
 fn size(text: &str) -> Result<Size, String> {
