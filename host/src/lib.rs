@@ -7,6 +7,7 @@ pub mod bake;
 pub mod document;
 pub mod error;
 pub mod flash;
+pub mod indirect;
 mod mesh;
 pub mod need;
 pub mod nff;
