@@ -14,14 +14,18 @@
 //! negative and they lie on the double cone's two halves. The heights of the two circles choose
 //! the half.
 
+use bytemuck::AnyBitPattern;
+
 use super::projection::{dot, minus};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned_to, unit_vector};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sqrt_f64, sub};
 use crate::octree::Extent;
 
 /// A cone or frustum without caps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Cone<A: Arithmetic> {
     middle: [A::Length; 3],
     axis: [A::Unit; 3],
@@ -34,6 +38,16 @@ pub struct Cone<A: Arithmetic> {
     half: A::Unit,
     material: MaterialId,
 }
+
+stored!(Cone {
+    middle: lengths,
+    axis: units,
+    bound: nested,
+    sin_cos: units,
+    waist: unit,
+    half: unit,
+    material: whole
+});
 
 for_each_arithmetic! {
     impl Cone<A> {

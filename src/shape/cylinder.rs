@@ -6,13 +6,17 @@
 //! h = √(r² − |cp − t₂·m|²), and the roots are (t₂ ∓ h)/q. Taking components out of vectors, not
 //! squares out of squares, keeps thin and far cylinders exact.
 
+use bytemuck::AnyBitPattern;
+
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned_to, unit_vector};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sqrt_f64, sub};
 use crate::octree::Extent;
 
 /// A cylinder without caps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Cylinder<A: Arithmetic> {
     base: [A::Length; 3],
     axis: [A::Unit; 3],
@@ -20,6 +24,8 @@ pub struct Cylinder<A: Arithmetic> {
     radius: A::Radius,
     material: MaterialId,
 }
+
+stored!(Cylinder { base: lengths, axis: units, length: length, radius: nested, material: whole });
 
 for_each_arithmetic! {
     impl Cylinder<A> {

@@ -36,6 +36,8 @@ pub use smooth_triangle::SmoothTriangle;
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 
+use bytemuck::{Pod, Zeroable};
+
 use crate::math::Arithmetic;
 
 /// A half-line, and which shape it leaves.
@@ -149,7 +151,8 @@ pub trait Shape<A: Arithmetic> {
 }
 
 /// Which of the scene's materials a shape has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(transparent)]
 pub struct MaterialId(u16);
 
 impl MaterialId {
