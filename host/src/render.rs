@@ -1,9 +1,13 @@
 //! Pictures of a baked scene.
 
+mod bands;
+
+use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 pub use whitted::frame::Sampling;
-use whitted::frame::{Output, Renderer, Rgb888, Sample};
+use whitted::frame::{Renderer, Sample};
+use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;
 use whitted::trace::{Tracer, Work};
 
@@ -27,6 +31,8 @@ pub struct Settings {
     pub sampling: Sampling,
     /// What the picture shows instead of the scene.
     pub show: Option<Show>,
+    /// How many threads trace; the picture and the counts are the same for any number.
+    pub threads: NonZeroUsize,
 }
 
 impl Settings {
@@ -65,23 +71,30 @@ pub fn render<A: Construct>(
     let scene = baked.scene()?;
     let camera = baked.camera(settings.size)?;
     let core = settings.for_core();
-    let mut work = Work::<A, MAX_DEPTH>::new();
-    let mut samples = vec![Sample::NONE; core.sampling.samples(core.width)];
-    let counts = Counts::default();
-    let mut renderer = Renderer::with_tally(&scene, &camera, core, &mut work, &mut samples, counts)
-        .map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
     let mut picture = Picture::new(settings.size);
-    if let Some(show) = settings.show {
-        let tracer = Tracer::new(&scene, settings.depth);
-        show::paint(&mut renderer, &tracer, show, &mut picture, &mut progress);
+    let counts = if let Some(show) = settings.show {
+        with_renderer(&scene, &camera, core, |renderer| {
+            let tracer = Tracer::new(&scene, settings.depth);
+            show::paint(renderer, &tracer, show, &mut picture, &mut progress);
+            *renderer.tally()
+        })?
     } else {
-        let mut line = vec![Rgb888::default(); usize::from(core.width)];
-        for (y, row) in (0..core.height).zip(picture.rows_mut()) {
-            renderer.line(y, &Output::SRGB, &mut line);
-            row.iter_mut().zip(&line).for_each(|(to, from)| *to = from.0);
-            progress(u32::from(y) + 1);
-        }
-    }
-    let counts = *renderer.tally();
+        bands::paint(&scene, &camera, core, settings.threads, &mut picture, &mut progress)?
+    };
     Ok(Rendered { picture, counts, time: start.elapsed() })
+}
+
+/// Calls `act` with a renderer and the memory that it needs.
+fn with_renderer<A: Construct, R>(
+    scene: &Scene<'_, A>,
+    camera: &Camera<A>,
+    settings: whitted::frame::Settings,
+    act: impl FnOnce(&mut Renderer<'_, A, MAX_DEPTH, Counts>) -> R,
+) -> Result<R, Flaw> {
+    let mut work = Work::<A, MAX_DEPTH>::new();
+    let mut samples = vec![Sample::NONE; settings.sampling.samples(settings.width)];
+    let counts = Counts::default();
+    Renderer::with_tally(scene, camera, settings, &mut work, &mut samples, counts)
+        .map(|mut renderer| act(&mut renderer))
+        .map_err(|error| Problem::Settings(error.to_string()).anywhere())
 }

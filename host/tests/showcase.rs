@@ -22,6 +22,7 @@ fn the_static_is_the_file() {
         depth,
         sampling: render::Sampling::Center,
         show: None,
+        threads: std::num::NonZeroUsize::MIN,
     };
     let file = render::render(&Baked::<A>::new(&document).unwrap(), &settings, |_| {}).unwrap();
 

@@ -39,6 +39,7 @@ fn counts<A: Construct>(document: &Document, side: u32) -> Counts {
         depth: 5,
         sampling: Sampling::Corners,
         show: None,
+        threads: std::thread::available_parallelism().unwrap_or(std::num::NonZeroUsize::MIN),
     };
     render(&baked, &settings, |_| {}).unwrap_or_else(|flaw| panic!("{}", flaw.problem)).counts
 }

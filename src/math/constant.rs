@@ -20,7 +20,30 @@ pub(crate) const fn sqrt(x: f64) -> f64 {
 /// The tangent of an angle in degrees, 0 ≤ angle < 90, to 1e-14: the quotient of the series of
 /// sine and cosine.
 pub const fn tan_degrees(angle: f64) -> f64 {
-    let x = angle * (core::f64::consts::PI / 180.0);
+    let (sin, cos) = series(angle * (core::f64::consts::PI / 180.0));
+    sin / cos
+}
+
+/// Sine and cosine of an angle in degrees, to 1e-14, and exact at right angles; no numbers for
+/// angles beyond a million.
+pub(crate) const fn sin_cos_degrees(angle: f64) -> (f64, f64) {
+    if !(angle >= -1e6 && angle <= 1e6) {
+        return (f64::NAN, f64::NAN);
+    }
+    // what remains beside a number of right angles, −45 to 45
+    let turns = angle / 90.0;
+    let quarter = (if turns < 0.0 { turns - 0.5 } else { turns + 0.5 }) as i32;
+    let (sin, cos) = series((angle - quarter as f64 * 90.0) * (core::f64::consts::PI / 180.0));
+    match quarter & 3 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// Sine and cosine by their series.
+const fn series(x: f64) -> (f64, f64) {
     let x2 = x * x;
     let (mut sin, mut cos) = (0.0, 0.0);
     let mut term = 1.0;
@@ -35,7 +58,7 @@ pub const fn tan_degrees(angle: f64) -> f64 {
             break;
         }
     }
-    sin / cos
+    (sin, cos)
 }
 
 /// The unit vector along `v`; `None` for a null vector or one that isn't of numbers.
@@ -105,6 +128,19 @@ mod tests {
         assert_eq!(sqrt(0.0), 0.0);
         assert_eq!(sqrt(-1.0), 0.0);
         assert_eq!(sqrt(f64::NAN), 0.0);
+    }
+
+    #[test]
+    fn sines() {
+        for i in -9000..9000 {
+            let a = f64::from(i) * 0.1;
+            let (sin, cos) = sin_cos_degrees(a);
+            let (s, c) = a.to_radians().sin_cos();
+            assert!((sin - s).abs() <= 1e-13 && (cos - c).abs() <= 1e-13, "{a}");
+        }
+        assert_eq!(sin_cos_degrees(-90.0), (-1.0, 0.0));
+        assert_eq!(sin_cos_degrees(180.0), (0.0, -1.0));
+        assert!(sin_cos_degrees(f64::INFINITY).0.is_nan());
     }
 
     #[test]

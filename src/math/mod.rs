@@ -22,13 +22,16 @@ mod log;
 mod root;
 mod vector;
 
+pub(crate) use constant::sin_cos_degrees;
 pub use constant::tan_degrees;
 pub(crate) use constant::{
     cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
 };
+pub use fixed::FixedSpot;
 pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
-pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedSpot};
-pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatSpot};
+pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedRotation, FixedScale};
+pub use float::FloatSpot;
+pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatScale};
 pub(crate) use root::normalize as normalize_u32;
 pub use root::sqrt_f32;
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
@@ -124,6 +127,10 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     type Aim: Number;
     /// A ray parameter within the octree, in units of the tree's side.
     type Span: Number;
+    /// A rotation of space.
+    type Rotation: Copy + Debug + Send + Sync;
+    /// A factor that lengths are multiplied by, and its reciprocal.
+    type Scale: Copy + Debug + Send + Sync;
 
     /// What the `--arith` option and baked files call this arithmetic.
     const NAME: &'static str;
@@ -316,6 +323,19 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn spans(o: Self::Length, d: Self::Unit, log2_side: i8) -> (Self::Span, Self::Span);
     /// A distance in the tree's unit, rounded up so that an end is never early.
     fn span(t: Self::Length, log2_side: i8) -> Self::Span;
+    /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
+    fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
+    /// `Rᵀ·v`, the way back.
+    fn rotate_back(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
+    /// `R·d` of a unit vector; in fixed point within a step.
+    fn turn(r: &Self::Rotation, d: &[Self::Unit; 3]) -> [Self::Unit; 3];
+    /// `Rᵀ·d`, the way back.
+    fn turn_back(r: &Self::Rotation, d: &[Self::Unit; 3]) -> [Self::Unit; 3];
+    /// `s·a`, rounded to nearest; in fixed point clipped to ±2048.
+    fn magnify(s: &Self::Scale, a: Self::Length) -> Self::Length;
+    /// `a/s`, likewise.
+    fn reduce(s: &Self::Scale, a: Self::Length) -> Self::Length;
+
     /// Half of a span.
     fn half(s: Self::Span) -> Self::Span;
     /// The side of a tree, 2^`log2_side`.

@@ -12,6 +12,7 @@ pub use buffer::OctreeBuffer;
 pub use builder::{BuildError, Built, Cube, Limits, build_into};
 pub use extent::Extent;
 pub use node::{MAX_ID_BITS, MAX_LEVELS, TreeError, validate};
+pub(crate) use overlap::bounds;
 pub use walk::{Octree, Visitor, WalkStack};
 
 #[cfg(test)]

@@ -160,7 +160,7 @@ impl Cell {
 }
 
 /// The box around an extent.
-pub(super) const fn bounds(extent: &Extent) -> ([i32; 3], [i32; 3]) {
+pub(crate) const fn bounds(extent: &Extent) -> ([i32; 3], [i32; 3]) {
     match extent {
         Extent::Box { min, max } => (*min, *max),
         Extent::Sphere { center: c, radius: r } => {

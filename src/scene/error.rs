@@ -20,6 +20,10 @@ pub enum SceneError {
         /// The number of shapes that the tree is over.
         shapes: u32,
     },
+    /// A group has no shapes, or they are too large for a bounding sphere.
+    Group,
+    /// There are more shapes in instances than numbers.
+    Numbers,
     /// A tailored scene uses what it said it doesn't.
     Uses {
         /// The bits of [`uses`](super::uses) that are missing.
@@ -34,6 +38,8 @@ impl SceneError {
             Self::Material { .. } => "a shape or a pattern names a material that isn't there",
             Self::Edges { .. } => "a polygon names edges that aren't there",
             Self::Tree { .. } => "the octree is over another number of shapes",
+            Self::Group => "a group has no shapes, or is too large for a bounding sphere",
+            Self::Numbers => "there are too many shapes in instances",
             Self::Uses { .. } => "the scene uses what its type says it doesn't",
         }
     }
@@ -51,6 +57,7 @@ impl fmt::Display for SceneError {
             Self::Tree { shapes } => {
                 write!(f, "the octree is over {shapes} shapes, the scene has another number")
             }
+            Self::Group | Self::Numbers => f.write_str(self.message()),
             Self::Uses { missing } => {
                 write!(f, "the scene uses {missing:#x}, which its type says it doesn't")
             }

@@ -28,18 +28,24 @@
 mod background;
 mod camera;
 mod error;
+mod group;
+mod instance;
 mod light;
 mod material;
 mod shapes;
+mod transform;
 pub mod uses;
 
 pub use background::Background;
 pub use camera::{Camera, Row, View};
 pub use error::SceneError;
+pub use group::Group;
+pub use instance::Instance;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
 pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
+pub use transform::Transform;
 
 pub(crate) use light::Incident;
 
@@ -91,7 +97,8 @@ impl<A: Arithmetic> Rules<A> {
 }
 
 /// What a scene is put together from. Shapes are numbered through in the order of the fields,
-/// planes last; where two are hit at the same distance, the lower number counts.
+/// those of each instance after each other, planes last; where two are hit at the same distance,
+/// the lower number counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts<'a, A: Arithmetic> {
     /// Spheres.
@@ -112,9 +119,12 @@ pub struct Parts<'a, A: Arithmetic> {
     pub cylinders: &'a [Cylinder<A>],
     /// Open cones.
     pub cones: &'a [Cone<A>],
+    /// Groups of shapes, placed. They lie outside the octree, each in a bounding sphere: a short
+    /// list.
+    pub instances: &'a [Instance<'a, A>],
     /// Infinite planes; they lie outside the octree.
     pub planes: &'a [Plane<A>],
-    /// The octree over all shapes but planes. Without one every ray tests every shape, which is
+    /// The octree over all shapes but instances and planes. Without one every ray tests every shape, which is
     /// quicker for fewer than ten.
     pub tree: Option<Octree<'a, A>>,
     /// Materials, by the index that shapes give.
@@ -141,6 +151,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         discs: &[],
         cylinders: &[],
         cones: &[],
+        instances: &[],
         planes: &[],
         tree: None,
         materials: &[],
@@ -161,8 +172,10 @@ pub struct Scene<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(crate) shapes: Shapes<'a, A>,
     /// All materials stop shadow rays, so that a shadow ray may end at the first hit.
     pub(crate) opaque_shadows: bool,
-    /// The number of bounded shapes, and of the first plane.
+    /// The number of bounded shapes, and of the first instance's first shape.
     pub(crate) bounded: u32,
+    /// The number of the first plane.
+    pub(crate) first_plane: u32,
 }
 
 impl<'a, A: Arithmetic> Scene<'a, A> {
@@ -216,11 +229,72 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
             }
             i += 1;
         }
+        let bounded = shapes.bounded();
+        let first_plane = match Self::number(&parts, parts.instances) {
+            Ok(number) => number,
+            Err(error) => return Err(error),
+        };
         let missing = parts.uses() & !USES;
         if missing != 0 {
             return Err(SceneError::Uses { missing });
         }
-        Ok(Self { parts, shapes, opaque_shadows, bounded: shapes.bounded() })
+        Ok(Self { parts, shapes, opaque_shadows, bounded, first_plane })
+    }
+
+    /// The same scene with other instances: for objects that move. Nothing else is looked at.
+    ///
+    /// # Errors
+    /// A material that isn't there; what isn't in `USES`.
+    pub const fn with_instances<'b>(
+        &self,
+        instances: &'b [Instance<'b, A>],
+    ) -> Result<Scene<'b, A, USES>, SceneError>
+    where
+        'a: 'b,
+    {
+        let first_plane = match Self::number(&self.parts, instances) {
+            Ok(number) => number,
+            Err(error) => return Err(error),
+        };
+        let missing = uses::of_instances(instances) & !USES;
+        if missing != 0 {
+            return Err(SceneError::Uses { missing });
+        }
+        Ok(Scene {
+            parts: Parts { instances, ..self.parts },
+            shapes: self.shapes,
+            opaque_shadows: self.opaque_shadows,
+            bounded: self.bounded,
+            first_plane,
+        })
+    }
+
+    /// The number of the first plane; the materials of the instances must be there.
+    const fn number(
+        parts: &Parts<'_, A>,
+        instances: &[Instance<'_, A>],
+    ) -> Result<u32, SceneError> {
+        let mut number = parts.bounded();
+        let mut i = 0;
+        while i < instances.len() {
+            let instance = &instances[i];
+            let group = instance.group();
+            if group.materials as usize > parts.materials.len() {
+                return Err(SceneError::Material { index: group.materials - 1 });
+            }
+            if let Some(id) = instance.material()
+                && id.index() >= parts.materials.len()
+            {
+                return Err(SceneError::Material { index: id.index() as u16 });
+            }
+            number = match number.checked_add(group.count) {
+                Some(number) => number,
+                None => return Err(SceneError::Numbers),
+            };
+            i += 1;
+        }
+        // The highest numbers stand for no shape.
+        if number > u32::MAX / 2 { Err(SceneError::Numbers) } else { Ok(number) }
     }
 
     /// The same for scenes in `static`s: a mistake doesn't compile.

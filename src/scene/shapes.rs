@@ -127,6 +127,27 @@ impl<A: Arithmetic> Shapes<'_, A> {
             + self.cones.len()) as u32
     }
 
+    /// One more than the highest material's index.
+    pub(super) const fn materials(&self) -> usize {
+        let mut most = 0;
+        macro_rules! look {
+            ($($kind:ident)*) => {
+                $(
+                    let mut i = 0;
+                    while i < self.$kind.len() {
+                        let index = self.$kind[i].material_id().index();
+                        if index >= most {
+                            most = index + 1;
+                        }
+                        i += 1;
+                    }
+                )*
+            };
+        }
+        look!(spheres triangles smooth_triangles polygons cuboids discs cylinders cones);
+        most
+    }
+
     /// Every shape's material must be there, every polygon's edges, and the tree must be over
     /// these shapes.
     pub(super) const fn check(&self, materials: usize) -> Result<(), SceneError> {

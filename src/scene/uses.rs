@@ -18,7 +18,7 @@
 //! ```
 
 use super::light::Source;
-use super::{Background, Falloff, Parts, Shadow};
+use super::{Background, Falloff, Instance, Parts, Shadow, Shapes};
 use crate::math::Arithmetic;
 
 /// Anything.
@@ -68,6 +68,9 @@ pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
 
+/// Instances of groups.
+pub const INSTANCES: u64 = 1 << 40;
+
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
 
@@ -109,18 +112,37 @@ const fn bit(wanted: bool, what: u64) -> u64 {
     if wanted { what } else { 0 }
 }
 
-impl<A: Arithmetic> Parts<'_, A> {
-    /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
-    pub const fn uses(&self) -> u64 {
-        let mut uses = bit(!self.triangles.is_empty(), TRIANGLES)
+impl<A: Arithmetic> Shapes<'_, A> {
+    /// The bits of these shapes.
+    pub(crate) const fn uses(&self) -> u64 {
+        bit(!self.triangles.is_empty(), TRIANGLES)
             | bit(!self.smooth_triangles.is_empty(), SMOOTH_TRIANGLES)
             | bit(!self.polygons.is_empty(), POLYGONS)
             | bit(!self.cuboids.is_empty(), CUBOIDS)
             | bit(!self.discs.is_empty(), DISCS)
             | bit(!self.cylinders.is_empty(), CYLINDERS)
             | bit(!self.cones.is_empty(), CONES)
-            | bit(!self.planes.is_empty(), PLANES)
             | bit(self.tree.is_some(), TREE)
+    }
+}
+
+/// The bits of instances and of their groups.
+pub(crate) const fn of_instances<A: Arithmetic>(instances: &[Instance<'_, A>]) -> u64 {
+    let mut uses = 0;
+    let mut i = 0;
+    while i < instances.len() {
+        uses |= INSTANCES | instances[i].group().uses();
+        i += 1;
+    }
+    uses
+}
+
+impl<A: Arithmetic> Parts<'_, A> {
+    /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
+    pub const fn uses(&self) -> u64 {
+        let mut uses = self.shapes().uses()
+            | of_instances(self.instances)
+            | bit(!self.planes.is_empty(), PLANES)
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)

@@ -36,6 +36,14 @@ pub(super) fn meet_any<A: Arithmetic, const USES: u64>(
     with_shape!(USES, shapes, id, shape => meet(shape, id, ray, coarse, limit), None)
 }
 
+/// Where a ray met a shape.
+pub(super) struct Place<A: Arithmetic> {
+    pub(super) surface: Surface<A>,
+    pub(super) material: MaterialId,
+    /// The point in the space where patterns lie: that of the scene, or of the group.
+    pub(super) local: [A::Length; 3],
+}
+
 /// The surface and material where the ray met the shape of this number; puts `p` back on it.
 #[inline(always)]
 pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
@@ -44,20 +52,58 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     ray: &Ray<A>,
     meeting: &Meeting<A>,
     p: &mut [A::Length; 3],
-) -> Option<(Surface<A>, MaterialId)> {
+) -> Option<Place<A>> {
     let (parts, shapes) = (&scene.parts, &scene.shapes);
     if let Some(sphere) = shapes.spheres.get(id as usize) {
-        Some((sphere.surface(ray, meeting, p), sphere.material()))
+        let surface = sphere.surface(ray, meeting, p);
+        Some(Place { surface, material: sphere.material(), local: *p })
     } else if has(USES, uses::PLANES)
-        && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.bounded) as usize)
+        && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
-        Some((plane.surface(ray, meeting, p), plane.material()))
+        let surface = plane.surface(ray, meeting, p);
+        Some(Place { surface, material: plane.material(), local: *p })
+    } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
+        let (place, point) = surface_in_instance(scene, id, *ray, *meeting)?;
+        *p = point;
+        Some(place)
     } else {
         let (surface, material, point) =
             surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
         *p = point;
-        Some((surface, material))
+        Some(Place { surface, material, local: point })
     }
+}
+
+/// The same in an instance.
+#[inline(never)]
+fn surface_in_instance<A: Arithmetic, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    id: u32,
+    ray: Ray<A>,
+    meeting: Meeting<A>,
+) -> Option<(Place<A>, [A::Length; 3])> {
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        let count = instance.group().count;
+        let index = id.wrapping_sub(first);
+        if index >= count {
+            first = first.wrapping_add(count);
+            continue;
+        }
+        let coarse = A::coarse(&ray.origin, &ray.direction);
+        let inside = instance.enter(first, &ray, &coarse, A::FAR)?;
+        let ray = &inside.ray;
+        let distance = instance.distance_inside(&inside, meeting.distance);
+        let local = A::along(&ray.origin, distance, &ray.direction);
+        let meeting = Meeting { distance, ..meeting };
+        let shapes = &instance.group().shapes;
+        let (surface, material, local) =
+            surface_of_other::<A, USES>(shapes, index, *ray, meeting, local)?;
+        let surface = instance.turn(surface);
+        let material = instance.material().unwrap_or(material);
+        return Some((Place { surface, material, local }, instance.outwards(&local)));
+    }
+    None
 }
 
 /// By value: what a reference is taken of can't stay in registers.

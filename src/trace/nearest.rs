@@ -7,6 +7,7 @@ use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Scene, Shapes};
 use crate::shape::{Meeting, Ray};
 use crate::tally::Tally;
+use core::ops::Range;
 
 /// The nearest hit along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,12 +75,12 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on from the best hit so far with the tree, or with the shapes that no line above tests.
+/// Goes on from the best hit so far with the tree, or with those shapes that nobody tests else.
 /// Out of line and by value, so that the short loops keep their numbers in registers.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
     shapes: &Shapes<'_, A>,
-    bounded: u32,
+    rest: Range<u32>,
     ray: Ray<A>,
     best: Hit<A>,
     walk: &mut WalkStack<A>,
@@ -92,11 +93,44 @@ fn search<A: Arithmetic, T: Tally, const USES: u64>(
     {
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
     } else {
-        for id in shapes.spheres.len() as u32..bounded {
+        for id in rest {
             search.test_any(id);
         }
     }
     search.best
+}
+
+/// Goes on with the instances.
+#[inline(never)]
+fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    ray: Ray<A>,
+    mut best: Hit<A>,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Hit<A> {
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        tally.test();
+        let group = instance.group();
+        if let Some(inside) = instance.enter(first, &ray, &coarse, best.distance) {
+            let limit = instance.distance_inside(&inside, best.distance);
+            let none = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
+            let rest = 0..group.count;
+            let hit = search::<A, T, USES>(&group.shapes, rest, inside.ray, none, walk, tally);
+            if hit.shape != u32::MAX && hit.distance < A::FAR {
+                let distance = instance.distance_outside(&inside, hit.distance);
+                let id = first.wrapping_add(hit.shape);
+                // Rounding can take it a step beyond.
+                if distance <= best.distance {
+                    best.take(Some(Meeting { distance, detail: hit.detail }), id);
+                }
+            }
+        }
+        first = first.wrapping_add(group.count);
+    }
+    best
 }
 
 /// The nearest hit in front of `limit`; the lowest number among equals.
@@ -113,7 +147,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.bounded;
+    let mut id = scene.first_plane;
     for plane in planes {
         tally.test();
         best.take(meet(plane, id, ray, &coarse, best.distance), id);
@@ -128,10 +162,13 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
             id += 1;
         }
         if has_others(USES) && id != scene.bounded {
-            best = search::<A, T, USES>(shapes, scene.bounded, *ray, best, walk, tally);
+            best = search::<A, T, USES>(shapes, id..scene.bounded, *ray, best, walk, tally);
         }
     } else {
-        best = search::<A, T, USES>(shapes, scene.bounded, *ray, best, walk, tally);
+        best = search::<A, T, USES>(shapes, 0..0, *ray, best, walk, tally);
+    }
+    if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
+        best = in_instances(scene, *ray, best, walk, tally);
     }
     if best.distance < limit { Some(best) } else { None }
 }

@@ -17,6 +17,6 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
         let hit = self.nearest(ray, work, tally)?;
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        surface_at(self.scene, hit.shape, ray, &meeting, &mut p).map(|(surface, _)| (hit, surface))
+        surface_at(self.scene, hit.shape, ray, &meeting, &mut p).map(|place| (hit, place.surface))
     }
 }

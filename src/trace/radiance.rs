@@ -127,10 +127,13 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
-        let Some((surface, id)) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
+        let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
             return (false, None);
         };
-        let Some(material) = scene.material_at(id, &p) else { return (false, None) };
+        let surface = place.surface;
+        let Some(material) = scene.material_at(place.material, &place.local) else {
+            return (false, None);
+        };
 
         let ambient = &scene.parts.ambient.0;
         let radiance =

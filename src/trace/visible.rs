@@ -8,6 +8,7 @@ use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Scene, Shadow, Shapes};
 use crate::shape::{Leaving, Meeting, Ray, Shape, Sphere};
 use crate::tally::{RayKind, Tally};
+use core::ops::Range;
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
 const MAX_SHEETS: usize = 32;
@@ -77,12 +78,12 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on with the tree, or with the shapes that no line below tests. By value, as in the search
+/// Goes on with the tree, or with those shapes that nobody tests else. By value, as in the search
 /// for the nearest hit.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
     shapes: &Shapes<'_, A>,
-    bounded: u32,
+    mut rest: Range<u32>,
     ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
@@ -96,7 +97,34 @@ fn search<A: Arithmetic, T: Tally, const USES: u64>(
         tree.walk(&ray.origin, &ray.direction, walk, &mut search);
         return search.found;
     }
-    (shapes.spheres.len() as u32..bounded).find(|&id| search.test_any(id))
+    rest.find(|&id| search.test_any(id))
+}
+
+/// Goes on with the instances.
+#[inline(never)]
+fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    ray: Ray<A>,
+    limit: A::Length,
+    walk: &mut WalkStack<A>,
+    tally: &mut T,
+) -> Option<u32> {
+    let coarse = A::coarse(&ray.origin, &ray.direction);
+    let mut first = scene.bounded;
+    for instance in scene.parts.instances {
+        tally.test();
+        let group = instance.group();
+        if let Some(inside) = instance.enter(first, &ray, &coarse, limit) {
+            let limit = instance.distance_inside(&inside, limit);
+            let rest = 0..group.count;
+            let found = search::<A, T, USES>(&group.shapes, rest, inside.ray, limit, walk, tally);
+            if let Some(id) = found {
+                return Some(first.wrapping_add(id));
+            }
+        }
+        first = first.wrapping_add(group.count);
+    }
+    None
 }
 
 /// The number of any shape along the ray nearer than `limit`.
@@ -122,13 +150,20 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         }
     }
     if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
-        let found = search::<A, T, USES>(shapes, scene.bounded, *ray, limit, walk, tally);
+        let rest = shapes.spheres.len() as u32..scene.bounded;
+        let found = search::<A, T, USES>(shapes, rest, *ray, limit, walk, tally);
+        if found.is_some() {
+            return found;
+        }
+    }
+    if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
+        let found = in_instances(scene, *ray, limit, walk, tally);
         if found.is_some() {
             return found;
         }
     }
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.bounded;
+    let mut id = scene.first_plane;
     for plane in planes {
         tally.test();
         if meet(plane, id, ray, &coarse, limit).is_some_and(|m| m.distance < limit) {
@@ -175,8 +210,9 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
         let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let (surface, id) = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
-        let material = scene.material_at(id, &p)?;
+        let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
+        let surface = place.surface;
+        let material = scene.material_at(place.material, &place.local)?;
         match material.shadow {
             Shadow::None => {}
             Shadow::Filtered if material.transmits => {

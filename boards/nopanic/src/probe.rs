@@ -18,7 +18,8 @@ use embedded_graphics::primitives::Rectangle;
 use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
-use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Material};
+use whitted::scene::{Ambient, Background, Camera, Falloff, Group, Instance, Light, LightSpec};
+use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
 use whitted::shape::{Sphere, Triangle};
@@ -88,7 +89,33 @@ macro_rules! arithmetic {
             any(Background::<$a>::try_uniform(any([0.1; 3])).ok()?);
             let background =
                 Background::<$a>::try_gradient(any([0.0; 3]), any([0.1; 3]), any([0.1; 3]));
+            let shapes = any(Shapes {
+                spheres: &spheres,
+                triangles: &triangles,
+                smooth_triangles: &smooth,
+                polygons: &polygons,
+                edges: &edges,
+                cuboids: &cuboids,
+                discs: &discs,
+                cylinders: &cylinders,
+                cones: &cones,
+                tree: None,
+            });
+            let group = Group::<$a>::try_new(shapes);
+            if let Err(error) = &group {
+                any(error.message());
+            }
+            let group = any(group.ok()?);
+            any((group.uses(), group.shapes().bounded()));
+            let turned = any(Transform::IDENTITY).scaled(any(2.0)).rotated(any([1.0; 3]), any(9.0));
+            let turned = turned.moved(any([1.0; 3])).turned(&any(Transform::IDENTITY).rotation);
+            any(turned.apply(any([1.0; 3])));
+            let instance = Instance::<$a>::try_new(&group, &turned);
+            let instance = any(instance.ok()?).with_material(any(1));
+            let instances = [any(instance.at(any(instance.position())))];
+            any(instance.group().uses());
             let parts = Parts {
+                instances: any(&instances),
                 spheres: any(&spheres),
                 triangles: any(&triangles),
                 smooth_triangles: any(&smooth),
@@ -136,6 +163,7 @@ macro_rules! arithmetic {
             }
             let scene = any(scene.ok()?);
             any(scene.parts());
+            let scene = any(scene.with_instances(any(&instances)).ok()?);
             any(spheres[0].at(any(spheres[1].center())).radius());
 
             let camera =

@@ -1,6 +1,7 @@
 //! `whitted render`, and `whitted` alone.
 
 use std::io::{IsTerminal, stdout};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -33,6 +34,9 @@ pub(super) struct Options {
     /// averaged), grid:N (N×N rays, 1 to 8), jittered:N[:SEED] (moved at random)
     #[arg(long, value_name = "HOW", default_value = "center", value_parser = super::sampling)]
     sampling: Sampling,
+    /// How many threads trace; the picture is the same for any number [default: one for each core]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
     /// Write ray counts and times to a file, as JSON
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
@@ -62,6 +66,7 @@ pub(super) fn showcase(quiet: bool) -> Result<(), Failure> {
         out: None,
         with: With { size: None, arith: Arith::F64, depth: None },
         sampling: Sampling::Center,
+        threads: None,
         stats: None,
         show: None,
     };
@@ -81,6 +86,10 @@ fn paint(
         depth: options.with.depth.unwrap_or(document.rules.depth),
         sampling: options.sampling,
         show: options.show.map(Into::into),
+        threads: options
+            .threads
+            .or_else(|| std::thread::available_parallelism().ok())
+            .unwrap_or(NonZeroUsize::MIN),
     };
     let (rendered, arithmetic, build) = match options.with.arith {
         Arith::Fixed => paint_in::<Fixed>(document, &settings, quiet),

@@ -1,7 +1,7 @@
 //! From `f64` to [`Fixed`](super::Fixed)'s numbers: `None` for what is out of range or no number.
 
 use super::{Aim, FixedBarycentric, FixedEdge, FixedEta, FixedExponent, FixedIntensity};
-use super::{FixedOutline, FixedRadius, Unit, Weight};
+use super::{FixedFactor, FixedOutline, FixedRadius, FixedRotation, FixedScale, Unit, Weight};
 use crate::math::inverted;
 use ::fixed::types::I16F16;
 
@@ -224,6 +224,42 @@ pub(crate) const fn edge(inward: [f64; 2], at: [f64; 2], outline: &FixedOutline)
     // `as` saturates
     let offset = round(-(n[0] as f64 * at[0] + n[1] as f64 * at[1]) * steps) as i16;
     FixedEdge { normal: n, offset }
+}
+
+/// From a rotation's rows, which must be of unit length and at right angles.
+pub(crate) const fn rotation(r: &[[f64; 3]; 3]) -> FixedRotation {
+    let mut made = FixedRotation { high_q17: [[0; 3]; 3], low_q30: [[0; 3]; 3] };
+    let mut i = 0;
+    while i < 9 {
+        let x = r[i / 3][i % 3];
+        let high = round(x * 131072.0) as i32;
+        made.high_q17[i / 3][i % 3] = high;
+        made.low_q30[i / 3][i % 3] = round((x * 131072.0 - high as f64) * 8192.0) as i16;
+        i += 1;
+    }
+    made
+}
+
+const fn factor(s: f64) -> FixedFactor {
+    let (mut mantissa, mut exponent) = (s, 0);
+    while mantissa >= 2.0 {
+        mantissa *= 0.5;
+        exponent += 1;
+    }
+    while mantissa < 1.0 {
+        mantissa *= 2.0;
+        exponent -= 1;
+    }
+    // `as` saturates, a step below 2
+    FixedFactor { mantissa_q30: round(mantissa * 1073741824.0) as u32, exponent }
+}
+
+/// From 2⁻¹⁰ to 2¹⁰.
+pub(crate) const fn scale(s: f64) -> Option<FixedScale> {
+    if !within(s, 1.0 / 1024.0, 1024.0) {
+        return None;
+    }
+    Some(FixedScale { factor: factor(s), reciprocal: factor(1.0 / s) })
 }
 
 pub(crate) const fn from_length(x: I16F16) -> f64 {

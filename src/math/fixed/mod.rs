@@ -15,6 +15,7 @@ mod direction;
 mod flat;
 mod kernel;
 mod light;
+mod place;
 mod round;
 
 use bytemuck::AnyBitPattern;
@@ -123,6 +124,27 @@ pub struct FixedSpot {
     slack_q14: i32,
 }
 
+/// See [`Arithmetic::Rotation`]: each entry is `high_q17` and `low_q30` together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedRotation {
+    high_q17: [[i32; 3]; 3],
+    low_q30: [[i16; 3]; 3],
+}
+
+/// See [`Arithmetic::Scale`]: the factor and its reciprocal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedScale {
+    factor: FixedFactor,
+    reciprocal: FixedFactor,
+}
+
+/// `mantissa_q30 · 2^exponent`, mantissa in 1 to 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct FixedFactor {
+    mantissa_q30: u32,
+    exponent: i8,
+}
+
 /// A ray with Q12 directions and positions in steps of 1/128.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedCoarse {
@@ -159,6 +181,8 @@ impl Arithmetic for Fixed {
     type Coarse = FixedCoarse;
     type Aim = Aim;
     type Span = i32;
+    type Rotation = FixedRotation;
+    type Scale = FixedScale;
 
     const NAME: &'static str = "fixed";
     const REFINE: bool = true;
@@ -484,6 +508,36 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn span(t: I16F16, log2_side: i8) -> i32 {
         shift(t.to_bits(), 16 - i32::from(log2_side)).wrapping_add(1)
+    }
+
+    #[inline(always)]
+    fn rotate(r: &FixedRotation, v: &[I16F16; 3]) -> [I16F16; 3] {
+        place::rotate(r, v)
+    }
+
+    #[inline(always)]
+    fn rotate_back(r: &FixedRotation, v: &[I16F16; 3]) -> [I16F16; 3] {
+        place::rotate(&r.back(), v)
+    }
+
+    #[inline(always)]
+    fn turn(r: &FixedRotation, d: &[Unit; 3]) -> [Unit; 3] {
+        place::turn(r, d)
+    }
+
+    #[inline(always)]
+    fn turn_back(r: &FixedRotation, d: &[Unit; 3]) -> [Unit; 3] {
+        place::turn(&r.back(), d)
+    }
+
+    #[inline(always)]
+    fn magnify(s: &FixedScale, a: I16F16) -> I16F16 {
+        s.factor.times(a)
+    }
+
+    #[inline(always)]
+    fn reduce(s: &FixedScale, a: I16F16) -> I16F16 {
+        s.reciprocal.times(a)
     }
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 macro_rules! constructors {
     ($f:ident) => {
         pub(crate) mod $f {
+            use super::super::FloatScale;
             use super::super::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius};
 
             const fn within(x: f64, low: f64, high: f64) -> Option<$f> {
@@ -115,6 +116,24 @@ macro_rules! constructors {
                 let n = [n[0] as $f, n[1] as $f];
                 let offset = -(n[0] as f64 * at[0] + n[1] as f64 * at[1]);
                 FloatEdge { normal: n, offset: offset as $f }
+            }
+
+            /// From a rotation's rows, which must be of unit length and at right angles.
+            pub(crate) const fn rotation(r: &[[f64; 3]; 3]) -> [[$f; 3]; 3] {
+                let mut made = [[0.0; 3]; 3];
+                let mut i = 0;
+                while i < 9 {
+                    made[i / 3][i % 3] = r[i / 3][i % 3] as $f;
+                    i += 1;
+                }
+                made
+            }
+
+            pub(crate) const fn scale(s: f64) -> Option<FloatScale<$f>> {
+                if !(s >= 1e-6 && s <= 1e6) {
+                    return None;
+                }
+                Some(FloatScale { factor: s as $f, reciprocal: (1.0 / s) as $f })
             }
 
             pub(crate) const fn from_length(x: $f) -> f64 {

@@ -70,6 +70,13 @@ pub struct FloatSpot<F> {
     slack: F,
 }
 
+/// A factor and its reciprocal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatScale<F> {
+    factor: F,
+    reciprocal: F,
+}
+
 macro_rules! float {
     ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, eps: $eps:literal, slow: $slow:literal) => {
         impl Arithmetic for $f {
@@ -91,6 +98,8 @@ macro_rules! float {
             type Coarse = ();
             type Aim = $f;
             type Span = $f;
+            type Rotation = [[$f; 3]; 3];
+            type Scale = FloatScale<$f>;
 
             const NAME: &'static str = stringify!($f);
             const REFINE: bool = false;
@@ -438,6 +447,37 @@ macro_rules! float {
             fn span(t: $f, _: i8) -> $f {
                 // The rounding of the quotients behind the spans.
                 t + t * (4.0 * $eps)
+            }
+
+            #[inline(always)]
+            fn rotate(r: &[[$f; 3]; 3], v: &[$f; 3]) -> [$f; 3] {
+                [Self::dot(&r[0], v), Self::dot(&r[1], v), Self::dot(&r[2], v)]
+            }
+
+            #[inline(always)]
+            fn rotate_back(r: &[[$f; 3]; 3], v: &[$f; 3]) -> [$f; 3] {
+                let f = |i: usize| r[0][i] * v[0] + r[1][i] * v[1] + r[2][i] * v[2];
+                [f(0), f(1), f(2)]
+            }
+
+            #[inline(always)]
+            fn turn(r: &[[$f; 3]; 3], d: &[$f; 3]) -> [$f; 3] {
+                Self::rotate(r, d)
+            }
+
+            #[inline(always)]
+            fn turn_back(r: &[[$f; 3]; 3], d: &[$f; 3]) -> [$f; 3] {
+                Self::rotate_back(r, d)
+            }
+
+            #[inline(always)]
+            fn magnify(s: &FloatScale<$f>, a: $f) -> $f {
+                a * s.factor
+            }
+
+            #[inline(always)]
+            fn reduce(s: &FloatScale<$f>, a: $f) -> $f {
+                a * s.reciprocal
             }
 
             #[inline(always)]
