@@ -100,7 +100,8 @@ impl Header {
     /// The bytes of the whole blob.
     fn length<A: Arithmetic>(&self) -> usize {
         let lists = sizes::<A>().into_iter().zip(self.counts.shapes);
-        let shapes: usize = lists.map(|(size, count)| up(size * count as usize)).sum();
+        let shapes = lists.map(|(size, count)| up(size.wrapping_mul(count as usize)));
+        let shapes = shapes.fold(0, usize::wrapping_add);
         SIZE + shapes + up(4 * self.counts.words as usize) + up(self.counts.specs as usize)
     }
 

@@ -140,7 +140,7 @@ impl<A: Arithmetic> Content<'_, A> {
         each_list!(self.shapes, self.planes, list => write_list(list, to));
         write_list(words, to);
         self.write_specs(&mut Writer(to));
-        to(&[0; ALIGNMENT][..header::up(specs) - specs]);
+        pad(specs, to);
     }
 
     fn write_specs(&self, to: &mut Writer<'_>) {
@@ -160,15 +160,19 @@ fn write_list<T: Stored>(list: &[T], to: &mut dyn FnMut(&[u8])) {
             to(part);
         }
     }
-    let bytes = size * list.len();
-    to(&[0; ALIGNMENT][..header::up(bytes) - bytes]);
+    pad(size.wrapping_mul(list.len()), to);
+}
+
+/// Zeros up to the next multiple of the alignment.
+fn pad(bytes: usize, to: &mut dyn FnMut(&[u8])) {
+    (bytes..header::up(bytes)).for_each(|_| to(&[0]));
 }
 
 /// Puts the checksum into the bytes of a blob.
 pub fn seal(bytes: &mut [u8]) {
     let sum = header::checksum(bytes);
     if let Some(place) = bytes.get_mut(header::CHECKSUM..header::CHECKSUM + 4) {
-        place.copy_from_slice(&sum.to_le_bytes());
+        place.iter_mut().zip(sum.to_le_bytes()).for_each(|(to, from)| *to = from);
     }
 }
 
@@ -341,6 +345,7 @@ for_each_arithmetic! {
             Camera::<A>::try_look_at(eye, at, up, tangent).map_err(BlobError::Value)
         }
 
+        #[allow(clippy::type_complexity)]
         fn surroundings(&self) -> Result<(Ambient<A>, Background<A>, Rules<A>), BlobError> {
             let setting = &self.setting;
             let background = match setting.background {

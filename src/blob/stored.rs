@@ -152,6 +152,6 @@ macro_rules! normals {
 
 normals!(
     i16: |x| (-16384..=16384).contains(&x),
-    f32: |x| x >= -1.001 && x <= 1.001,
-    f64: |x| x >= -1.001 && x <= 1.001
+    f32: |x| (-1.001..=1.001).contains(&x),
+    f64: |x| (-1.001..=1.001).contains(&x)
 );
