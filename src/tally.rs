@@ -23,9 +23,12 @@ pub enum RayKind {
 pub enum Term {
     /// The background, seen by a ray that hits nothing.
     Background,
+    /// L_e of the surface.
+    Emission,
     /// k_amb·E_amb.
     Ambient,
-    /// Light `light` of the scene, diffuse and highlight.
+    /// Light `light` of the scene, diffuse and highlight; area lights are numbered after the
+    /// others.
     Direct {
         /// Its index.
         light: u16,

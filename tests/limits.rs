@@ -51,6 +51,7 @@ fn material(random: &mut Random) -> MaterialSpec {
         transmission: coefficients(random, 1.0),
         index_front: index(random),
         index_behind: index(random),
+        emission: coefficients(random, 1024.0),
         shadow: [Shadow::Opaque, Shadow::Filtered, Shadow::None][random.below(3) as usize],
         pattern: match random.below(3) {
             0 => Some(PatternSpec {

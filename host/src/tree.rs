@@ -73,10 +73,12 @@ pub fn tree<A: Construct>(
 ) -> Result<Tree, Flaw> {
     let scene = baked.scene()?;
     let view = View::new(&baked.camera(size)?, size.width as u16, size.height as u16);
-    let ray = view.ray(&view.row(y as u16, 128), x as u16, 128);
+    let row = view.row(y as u16, 128);
+    let ray = view.ray(&row, x as u16, 128);
     let mut tree = Tree::default();
     let mut work = Work::<A, MAX_DEPTH>::new();
-    tree.sum = radiance::<A>(&Tracer::new(&scene, depth).radiance(ray, &mut work, &mut tree));
+    let tracer = Tracer::new(&scene, depth).with_key(row.key(x as u16, 128));
+    tree.sum = radiance::<A>(&tracer.radiance(ray, &mut work, &mut tree));
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };
         *distance /= baked.placement.scale();
@@ -134,6 +136,7 @@ impl fmt::Display for Tree {
             for (term, value) in &branch.terms {
                 let name = match term {
                     Term::Background => "background".to_string(),
+                    Term::Emission => "emission".to_string(),
                     Term::Ambient => "ambient".to_string(),
                     Term::Direct { light } => format!("light {light}"),
                 };

@@ -5,14 +5,7 @@
 //! pixel's own coordinates, the ray's number and a seed through an integer hash, so a picture is
 //! the same on every machine and in whatever order its pixels are traced.
 
-/// A 32-bit hash whose every output bit depends on every input bit (Wellons, "Prospecting for
-/// hash functions", 2018: `lowbias32`).
-#[inline(always)]
-fn hash(x: u32) -> u32 {
-    let x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
-    let x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
-    x ^ (x >> 16)
-}
+use crate::math::hash;
 
 /// The place of cell `cell` of `side` along one axis, in 1/256 of a pixel, `within` in 0 to 255
 /// being the place in the cell.

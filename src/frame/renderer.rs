@@ -166,6 +166,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
+        if uses::has_random(USES) {
+            self.tracer.set_key(row.key(x, fraction));
+        }
         self.radiance(&ray)
     }
 
@@ -173,6 +176,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     pub(super) fn sample(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Sample<A> {
         let ray = self.view.ray(row, x, fraction);
+        if uses::has_random(USES) {
+            self.tracer.set_key(row.key(x, fraction));
+        }
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)

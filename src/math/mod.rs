@@ -18,6 +18,7 @@ mod fixed;
 mod float;
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 mod hardware;
+mod hash;
 mod log;
 mod root;
 mod vector;
@@ -32,6 +33,7 @@ pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, F
 pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedRotation, FixedScale};
 pub use float::FloatSpot;
 pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatScale};
+pub(crate) use hash::{hash, spread};
 pub(crate) use root::normalize as normalize_u32;
 pub use root::sqrt_f32;
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
@@ -221,6 +223,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn leg(r: &Self::Radius, leg2: Self::Leg2) -> Self::Length;
     /// The square of a length whose absolute value is no larger than 2·`r`.
     fn square(r: &Self::Radius, a: Self::Length) -> Self::Leg2;
+    /// `a` over the length whose reciprocal is given, for |a| no larger than that length.
+    fn share(a: Self::Length, inverse: &Self::Inverse) -> Self::Unit;
     /// `v/r`, for |v| ≤ r: the normal of a sphere.
     fn over(r: &Self::Radius, v: &[Self::Length; 3]) -> [Self::Unit; 3];
     /// `a/r`, for |a| ≤ r.
@@ -288,6 +292,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn weight(a: Self::Weight, b: Self::Weight) -> Self::Weight;
     /// `a/b`, for a light's cone: 0 ≤ a ≤ b.
     fn quotient(a: Self::Weight, b: Self::Weight) -> Self::Weight;
+    /// `x`/65536 for |x| ≤ 65536, exactly.
+    fn fraction(x: i32) -> Self::Unit;
     /// A component of a unit vector as a coefficient.
     fn weight_of(u: Self::Unit) -> Self::Weight;
     /// `cos^n` for a cosine in 0 to 1.

@@ -4,7 +4,7 @@
 //! forward + right·(2x − W)/H + down·(2y − H)/H: `right` and `down` are as long as the tangent of
 //! half the vertical angle, so pixels are square whatever the picture's proportions.
 
-use crate::math::{Arithmetic, cross_f64, for_each_arithmetic, tan_degrees, unit_f64};
+use crate::math::{Arithmetic, cross_f64, for_each_arithmetic, spread, tan_degrees, unit_f64};
 use crate::shape::{Leaving, Ray, ShapeError, ok_or_panic, point, some_or};
 
 /// A pinhole camera.
@@ -118,6 +118,15 @@ pub struct View<A: Arithmetic> {
 #[derive(Clone, Copy, Debug)]
 pub struct Row<A: Arithmetic> {
     start: [A::Aim; 3],
+    place: u32,
+}
+
+impl<A: Arithmetic> Row<A> {
+    /// Another number for each place in the picture: where what is random about a ray comes from.
+    #[inline(always)]
+    pub fn key(&self, x: u16, fraction: u8) -> u32 {
+        spread(self.place, u32::from(x) << 8 | u32::from(fraction))
+    }
 }
 
 impl<A: Arithmetic> View<A> {
@@ -144,7 +153,8 @@ impl<A: Arithmetic> View<A> {
     #[inline(always)]
     pub fn row(&self, y: u16, fraction: u8) -> Row<A> {
         let f = |i: usize| A::aim(self.corner[i], self.down[i], i32::from(y), i32::from(fraction));
-        Row { start: [f(0), f(1), f(2)] }
+        let place = u32::from(y) << 8 | u32::from(fraction);
+        Row { start: [f(0), f(1), f(2)], place }
     }
 
     /// The ray at `x` and `fraction`/256 pixels right of the left edge.

@@ -20,6 +20,11 @@ pub enum SceneError {
         /// The number of shapes that the tree is over.
         shapes: u32,
     },
+    /// An area light names corners that aren't there.
+    Fan {
+        /// The light's index among the area lights.
+        light: u32,
+    },
     /// A group has no shapes, or they are too large for a bounding sphere.
     Group,
     /// There are more shapes in instances than numbers.
@@ -38,6 +43,7 @@ impl SceneError {
             Self::Material { .. } => "a shape or a pattern names a material that isn't there",
             Self::Edges { .. } => "a polygon names edges that aren't there",
             Self::Tree { .. } => "the octree is over another number of shapes",
+            Self::Fan { .. } => "an area light names corners that aren't there",
             Self::Group => "a group has no shapes, or is too large for a bounding sphere",
             Self::Numbers => "there are too many shapes in instances",
             Self::Uses { .. } => "the scene uses what its type says it doesn't",
@@ -56,6 +62,9 @@ impl fmt::Display for SceneError {
             }
             Self::Tree { shapes } => {
                 write!(f, "the octree is over {shapes} shapes, the scene has another number")
+            }
+            Self::Fan { light } => {
+                write!(f, "area light {light} names corners that aren't there")
             }
             Self::Group | Self::Numbers => f.write_str(self.message()),
             Self::Uses { missing } => {

@@ -34,6 +34,9 @@ pub struct MaterialSpec {
     pub index_front: f64,
     /// The index of refraction behind the surface (inside a body).
     pub index_behind: f64,
+    /// L_e: the radiance that the surface emits from its front, whatever falls on it, at most 1024.
+    /// A closed shape's front is its outside; of a shape that shows its inside only, the inside.
+    pub emission: Rgb<f64>,
     /// What shadow rays find.
     pub shadow: Shadow,
     /// A pattern that shows another material in places.
@@ -51,6 +54,7 @@ impl MaterialSpec {
         transmission: [0.0; 3],
         index_front: 1.0,
         index_behind: 1.0,
+        emission: [0.0; 3],
         shadow: Shadow::Opaque,
         pattern: None,
     };
@@ -75,6 +79,7 @@ pub struct Material<A: Arithmetic> {
     pub(crate) specular: Rgb<A::Weight>,
     pub(crate) reflection: Rgb<A::Weight>,
     pub(crate) transmission: Rgb<A::Weight>,
+    pub(crate) emission: Rgb<A::Radiance>,
     pub(crate) shininess: A::Exponent,
     /// η_i/η_t for a ray from the front and for one from behind.
     pub(crate) eta: [A::Eta; 2],
@@ -84,6 +89,7 @@ pub struct Material<A: Arithmetic> {
     pub(crate) shines: bool,
     pub(crate) reflects: bool,
     pub(crate) transmits: bool,
+    pub(crate) emits: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +147,7 @@ for_each_arithmetic! {
         ///
         /// # Errors
         /// A coefficient that is negative, no number or beyond its range (16; 1 for reflection
-        /// and transmission), an index of refraction whose ratio to the other side's is beyond
+        /// and transmission; 1024 for emission), an index of refraction whose ratio to the other side's is beyond
         /// ¼ to 4, an exponent beyond a million, a negative cell.
         pub const fn try_new(spec: &MaterialSpec) -> Result<Self, ShapeError> {
             if !at_most_one(&spec.reflection) || !at_most_one(&spec.transmission) {
@@ -187,6 +193,12 @@ for_each_arithmetic! {
                 shines: any(&spec.specular),
                 reflects: any(&spec.reflection),
                 transmits: any(&spec.transmission),
+                emission: [
+                    some_or!(make::radiance(spec.emission[0]), Coefficient),
+                    some_or!(make::radiance(spec.emission[1]), Coefficient),
+                    some_or!(make::radiance(spec.emission[2]), Coefficient),
+                ],
+                emits: any(&spec.emission),
             })
         }
     }

@@ -25,6 +25,7 @@
 //! });
 //! ```
 
+mod area_light;
 mod background;
 mod camera;
 mod error;
@@ -36,6 +37,7 @@ mod shapes;
 mod transform;
 pub mod uses;
 
+pub use area_light::{Area, AreaLight, AreaLightSpec, FanCorner};
 pub use background::Background;
 pub use camera::{Camera, Row, View};
 pub use error::SceneError;
@@ -47,6 +49,7 @@ pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
 pub use transform::Transform;
 
+pub(crate) use area_light::Form;
 pub(crate) use light::Incident;
 
 use crate::math::{Arithmetic, Rgb};
@@ -131,6 +134,13 @@ pub struct Parts<'a, A: Arithmetic> {
     pub materials: &'a [Material<A>],
     /// Lights.
     pub lights: &'a [Light<A>],
+    /// Lights with an area, numbered after the others.
+    pub area_lights: &'a [AreaLight<A>],
+    /// The fans of all area lights that are polygons.
+    pub light_corners: &'a [FanCorner<A>],
+    /// Where in its part of an area light a shadow ray goes: through the middle, or at random,
+    /// given a seed. The same seed gives the same picture on every machine.
+    pub light_jitter: Option<u16>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
     /// What rays see that hit nothing.
@@ -156,6 +166,9 @@ impl<A: Arithmetic> Parts<'_, A> {
         tree: None,
         materials: &[],
         lights: &[],
+        area_lights: &[],
+        light_corners: &[],
+        light_jitter: None,
         ambient: Ambient([A::BLACK; 3]),
         background: Background::BLACK,
         rules: Rules::COURSE,
@@ -226,6 +239,14 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
                 && pattern.other as usize >= parts.materials.len()
             {
                 return Err(SceneError::Material { index: pattern.other });
+            }
+            i += 1;
+        }
+        let mut i = 0;
+        while i < parts.area_lights.len() {
+            let (first, count) = parts.area_lights[i].fan_range();
+            if first as u64 + count as u64 > parts.light_corners.len() as u64 {
+                return Err(SceneError::Fan { light: i as u32 });
             }
             i += 1;
         }
@@ -311,6 +332,14 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
     /// What the scene was put together from.
     pub const fn parts(&self) -> &Parts<'a, A> {
         &self.parts
+    }
+
+    /// Whether a shape is the body of an area light: its emission is counted by direct sampling, so
+    /// rays that gather irradiance leave it out.
+    #[inline(always)]
+    pub fn lists(&self, shape: u32) -> bool {
+        has(USES, uses::AREA_LIGHTS)
+            && self.parts.area_lights.iter().any(|light| light.body == shape)
     }
 
     /// The material at a point of a shape, the checker resolved.

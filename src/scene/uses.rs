@@ -67,6 +67,10 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// Lights with an area.
+pub const AREA_LIGHTS: u64 = 1 << 22;
+/// Materials that emit.
+pub const EMISSION: u64 = 1 << 23;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
@@ -108,6 +112,12 @@ pub(crate) const fn has_signatures(uses: u64) -> bool {
     uses & (ADAPTIVE | SPARSE) != 0
 }
 
+/// Whether anything is random about rays.
+#[inline(always)]
+pub(crate) const fn has_random(uses: u64) -> bool {
+    has(uses, AREA_LIGHTS)
+}
+
 const fn bit(wanted: bool, what: u64) -> u64 {
     if wanted { what } else { 0 }
 }
@@ -146,7 +156,8 @@ impl<A: Arithmetic> Parts<'_, A> {
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)
-            | bit(self.rules.transmitters_reflect, TRANSMITTERS_REFLECT);
+            | bit(self.rules.transmitters_reflect, TRANSMITTERS_REFLECT)
+            | bit(!self.area_lights.is_empty(), AREA_LIGHTS);
         let mut i = 0;
         while i < self.materials.len() {
             let material = &self.materials[i];
@@ -154,6 +165,7 @@ impl<A: Arithmetic> Parts<'_, A> {
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)
+                | bit(material.emits, EMISSION)
                 | bit(!matches!(material.shadow, Shadow::Opaque), PASSING_SHADOWS);
             i += 1;
         }

@@ -19,6 +19,8 @@ pub enum ShapeError {
     Coefficient,
     /// The material's index is 32768 or more.
     Material,
+    /// The shadow rays to an area light are none, more than 1024, or at least more than at most.
+    Samples,
 }
 
 impl ShapeError {
@@ -32,6 +34,7 @@ impl ShapeError {
             Self::Polygon => "a polygon must be convex, plane, and of 3 to 255 corners",
             Self::Coefficient => "a coefficient is negative, not a number, or out of range",
             Self::Material => "a material's index is 32768 or more",
+            Self::Samples => "an area light takes 1 to 1024 shadow rays, at least as many at most",
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Direct light: Lambert and Phong for each light that a shadow ray finds visible.
 
+use super::area::{Point, areas};
 use super::visible::visible;
+use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
-use crate::octree::WalkStack;
 use crate::scene::uses::{self, has};
 use crate::scene::{Incident, Material, Scene};
 use crate::shape::{Ray, Surface};
@@ -19,6 +20,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     /// The product of the coefficients down the tree.
     pub(super) weight: &'s Rgb<A::Weight>,
     pub(super) depth: u8,
+    /// Where random numbers come from: another one for each point that is shaded.
+    pub(super) key: u32,
 }
 
 /// Adds what the point sends back along the ray of each light's direct light.
@@ -27,7 +30,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     mut at: Shading<'_, A>,
     sum: &mut Rgb<A::Radiance>,
-    walk: &mut WalkStack<A>,
+    scratch: &mut Scratch<A>,
     tally: &mut T,
 ) {
     let rules = &scene.parts.rules;
@@ -46,7 +49,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         }
         at.shadow.direction = direction;
         tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, walk, tally) else {
+        let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {
             tally.shadowed(number, at.depth);
             continue;
         };
@@ -70,5 +73,8 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         let radiance = factor.map(|f| A::dim(irradiance, f));
         tally.term::<A>(Term::Direct { light: number }, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
+    }
+    if has(USES, uses::AREA_LIGHTS) && !scene.parts.area_lights.is_empty() {
+        *sum = rgb(sum, &areas(scene, Point::of(&at), scratch, tally), A::gather);
     }
 }

@@ -1,5 +1,6 @@
 //! Tracing: from a camera's ray to its radiance, the tree of rays on an explicit stack.
 
+mod area;
 mod direct;
 mod meet;
 mod nearest;

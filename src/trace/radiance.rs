@@ -7,9 +7,8 @@
 use super::direct::{Shading, direct};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
-use super::work::Work;
+use super::work::{Scratch, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
-use crate::octree::WalkStack;
 use crate::scene::Scene;
 use crate::scene::uses::{self, has};
 use crate::shape::{Leaving, Meeting, Ray};
@@ -38,18 +37,35 @@ impl<A: Arithmetic> Path<A> {
     };
 }
 
+/// From the key of a ray to that of the next: odd, so that all differ.
+const RAY_STEP: u32 = 0xc2b2_ae3d;
+
 /// Traces rays in a scene, to a depth that its memory was made for.
 #[derive(Debug)]
 pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(super) scene: &'a Scene<'a, A, USES>,
     depth: u8,
+    key: u32,
 }
 
 impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth }
+        Self { scene, depth, key: 0 }
+    }
+
+    /// The same for a camera's ray of this [`Row::key`](crate::scene::Row::key): where what is
+    /// random about the ray comes from.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_key(self, key: u32) -> Self {
+        Self { key, ..self }
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_key(&mut self, key: u32) {
+        self.key = key;
     }
 
     /// The nearest hit along a ray, for tools that show more than radiance.
@@ -59,7 +75,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, &mut work.walk, tally)
+        nearest(self.scene, ray, A::FAR, &mut work.scratch.walk, tally)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -74,9 +90,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
+        // A number for each ray of the tree, in the order in which they are traced.
+        let mut key = self.key;
         loop {
+            if uses::has_random(USES) {
+                key = key.wrapping_add(RAY_STEP);
+            }
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
-            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.walk, tally) {
+            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
@@ -88,7 +109,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 Some(hit) => {
                     tally.hit::<A>(path.kind, hit.shape, hit.distance);
                     let (more, other) =
-                        self.shade(&mut path, &hit, &mut sum, &mut work.walk, tally);
+                        self.shade(&mut path, &hit, key, &mut sum, &mut work.scratch, tally);
                     if let Some(other) = other
                         && let Some(place) = work.waiting.get_mut(waiting)
                     {
@@ -119,8 +140,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
+        key: u32,
         sum: &mut Rgb<A::Radiance>,
-        walk: &mut WalkStack<A>,
+        scratch: &mut Scratch<A>,
         tally: &mut T,
     ) -> (bool, Option<Path<A>>) {
         let scene = self.scene;
@@ -134,6 +156,15 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let Some(material) = scene.material_at(place.material, &place.local) else {
             return (false, None);
         };
+
+        if has(USES, uses::EMISSION)
+            && material.emits
+            && (!surface.behind || place.material.inside_only())
+        {
+            let radiance = rgb(&material.emission, &path.weight, A::dim);
+            tally.term::<A>(Term::Emission, &radiance);
+            *sum = rgb(sum, &radiance, A::gather);
+        }
 
         let ambient = &scene.parts.ambient.0;
         let radiance =
@@ -154,8 +185,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             shadow: outside,
             weight: &path.weight,
             depth: path.depth,
+            key,
         };
-        direct(scene, shading, sum, walk, tally);
+        direct(scene, shading, sum, scratch, tally);
 
         if path.depth >= self.depth {
             return (false, None);

@@ -2,6 +2,7 @@
 
 use super::meet::{meet, meet_any, surface_at};
 use super::nearest::nearest;
+use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
@@ -180,11 +181,12 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
-    walk: &mut WalkStack<A>,
+    scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
+    let walk = &mut scratch.walk;
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
-        return filtered(scene, *ray, limit, walk, tally);
+        return filtered(scene, *ray, limit, NO_SHAPE, walk, tally);
     }
     match occluder(scene, ray, limit, walk, tally) {
         Some(shape) => {
@@ -195,12 +197,46 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     }
 }
 
-/// The product of the coefficients of transmission along the straight line.
+/// No shape's number.
+const NO_SHAPE: u32 = u32::MAX;
+
+/// The same for a light on the surface of the shape `body`, which doesn't stand in its way.
+#[inline(never)]
+pub(super) fn visible_beside<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    ray: &Ray<A>,
+    limit: A::Length,
+    body: u32,
+    scratch: &mut Scratch<A>,
+    tally: &mut T,
+) -> Option<Rgb<A::Weight>> {
+    let walk = &mut scratch.walk;
+    if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
+        return filtered(scene, *ray, limit, body, walk, tally);
+    }
+    let mut found = occluder(scene, ray, limit, walk, tally);
+    if found == Some(body) {
+        // The ray ends on the body, where rounding can see it a little nearer; whatever else is in
+        // the way is nearer still.
+        found = nearest(scene, ray, limit, walk, tally).map(|hit| hit.shape);
+        found = found.filter(|&shape| shape != body);
+    }
+    match found {
+        Some(shape) => {
+            tally.hit::<A>(RayKind::Shadow, shape, limit);
+            None
+        }
+        None => Some([A::FULL; 3]),
+    }
+}
+
+/// The product of the coefficients of transmission along the straight line, up to the light's body.
 #[inline(never)]
 fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     mut ray: Ray<A>,
     limit: A::Length,
+    body: u32,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
@@ -208,6 +244,9 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
     let mut left = limit;
     for _ in 0..MAX_SHEETS {
         let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
+        if hit.shape == body {
+            return Some(share);
+        }
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;

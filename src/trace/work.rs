@@ -9,13 +9,25 @@ use crate::octree::WalkStack;
 #[derive(Clone, Debug)]
 pub struct Work<A: Arithmetic, const MAX_DEPTH: usize> {
     pub(super) waiting: [Path<A>; MAX_DEPTH],
+    pub(super) scratch: Scratch<A>,
+}
+
+/// What searches along rays write.
+#[derive(Clone, Debug)]
+pub(super) struct Scratch<A: Arithmetic> {
     pub(super) walk: WalkStack<A>,
+}
+
+impl<A: Arithmetic> Scratch<A> {
+    const fn new() -> Self {
+        Self { walk: WalkStack::new() }
+    }
 }
 
 impl<A: Arithmetic, const MAX_DEPTH: usize> Work<A, MAX_DEPTH> {
     /// Memory for trees of rays up to `MAX_DEPTH` deep, the camera's ray being depth 1.
     pub const fn new() -> Self {
-        Self { waiting: [const { Path::NONE }; MAX_DEPTH], walk: WalkStack::new() }
+        Self { waiting: [const { Path::NONE }; MAX_DEPTH], scratch: Scratch::new() }
     }
 }
 

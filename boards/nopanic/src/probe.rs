@@ -19,7 +19,8 @@ use whitted::blob::{self, Blob, Content};
 use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
-use whitted::scene::{Ambient, Background, Camera, Falloff, Group, Instance, Light, LightSpec};
+use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
+use whitted::scene::{Group, Instance, Light, LightSpec};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
@@ -52,6 +53,7 @@ macro_rules! arithmetic {
                 transmission: any([0.2; 3]),
                 index_front: any(1.0),
                 index_behind: any(1.5),
+                emission: any([0.1; 3]),
                 shadow: any(Shadow::Filtered),
                 pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
             };
@@ -87,6 +89,34 @@ macro_rules! arithmetic {
                 Light::<$a>::try_new(&spot).ok()?,
             ]);
             any(lights[0].direction());
+            let spec = |area| AreaLightSpec {
+                area,
+                radiance: any([9.0; 3]),
+                error: any(0.1),
+                samples: any([2, 9]),
+                body: any(Some(1)),
+            };
+            let (corner, edge) = (any([1.0; 3]), any([1.0; 3]));
+            let area_lights = any([
+                AreaLight::<$a>::try_new(&spec(Area::Rectangle { corner, u: edge, v: edge }))
+                    .ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Triangle { corners })).ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Polygon {
+                    corners: any(&corners),
+                    first: any(0),
+                }))
+                .ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Disc {
+                    center: corner,
+                    normal: edge,
+                    radius: any(1.0),
+                }))
+                .ok()?,
+                AreaLight::<$a>::try_new(&spec(Area::Sphere { center: corner, radius: any(1.0) }))
+                    .ok()?,
+            ]);
+            any(area_lights[0].body());
+            let fan = any([AreaLight::<$a>::try_fan(any(&corners), any(0)).ok()?; 2]);
             any(Background::<$a>::try_uniform(any([0.1; 3])).ok()?);
             let background =
                 Background::<$a>::try_gradient(any([0.0; 3]), any([0.1; 3]), any([0.1; 3]));
@@ -130,6 +160,9 @@ macro_rules! arithmetic {
                 tree: any(None),
                 materials: any(&materials),
                 lights: any(&lights),
+                area_lights: any(&area_lights),
+                light_corners: any(&fan),
+                light_jitter: any(Some(3)),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
                 background: any(background.ok()?),
                 rules: any(Rules::COURSE),
@@ -164,6 +197,7 @@ macro_rules! arithmetic {
             }
             let scene = any(scene.ok()?);
             any(scene.parts());
+            any(scene.lists(any(2)));
             let scene = any(scene.with_instances(any(&instances)).ok()?);
             any(spheres[0].at(any(spheres[1].center())).radius());
 
@@ -244,7 +278,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
-    let tracer = any(Tracer::new(scene, any(5)));
+    let tracer = any(Tracer::new(scene, any(5)).with_key(any(7)));
     let mut tally = tally;
     any(tracer.nearest(&ray, &mut work, &mut tally));
     any(tracer.radiance(ray, &mut work, &mut tally));
@@ -367,6 +401,8 @@ fn lengths<A: Arithmetic>() {
     any(A::weight(w, w));
     any(A::quotient(w, w));
     any(A::weight_of(u));
+    any(A::fraction(any(7)));
+    any(A::share(t, &any(A::normalize(&p).2)));
     any(A::dim(r, w));
     any(A::gather(r, r));
     any(A::mean(r, any(0)));

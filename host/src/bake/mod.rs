@@ -134,6 +134,7 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
             transmission: m.transmission,
             index_front: m.index_front,
             index_behind: m.index_behind,
+            emission: m.emission,
             shadow: match m.shadow {
                 ShadowThrough::Opaque => Shadow::Opaque,
                 ShadowThrough::Filtered => Shadow::Filtered,

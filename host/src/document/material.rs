@@ -45,6 +45,8 @@ pub struct Material {
     pub index_front: f64,
     /// The index on the other side: inside a closed shape.
     pub index_behind: f64,
+    /// L_e: what its front emits.
+    pub emission: Rgb,
     /// What a shadow ray finds.
     pub shadow: ShadowThrough,
     /// Cells of another material.
@@ -66,6 +68,7 @@ impl Material {
             transmission: [0.0; 3],
             index_front: 1.0,
             index_behind: 1.0,
+            emission: [0.0; 3],
             shadow: ShadowThrough::Opaque,
             checker: None,
             line,

@@ -9,6 +9,9 @@ use crate::error::{Flaw, Problem};
 /// The largest coefficient that is no part of the light: diffuse, ambient, highlight.
 const STRONGEST: f64 = 15.9;
 
+/// The largest radiance.
+const BRIGHTEST: f64 = 1000.0;
+
 /// The materials read so far, and the checkers that name others.
 pub(super) struct Names<'d> {
     materials: Vec<Material>,
@@ -122,6 +125,7 @@ impl<'d> Names<'d> {
             transmission: table.color("transmission", 1.0, like.transmission)?,
             index_front: table.number("index_front", 0.25..4.0, like.index_front)?,
             index_behind: table.number("index_behind", 0.25..4.0, index)?,
+            emission: table.color("emission", BRIGHTEST, like.emission)?,
             shadow: table.get("shadow").map_or(Ok(like.shadow), |v| v.word("shadow", &shadows))?,
             ..like
         };

@@ -1,7 +1,8 @@
 //! Lights: intensities and distances with exponents of their own.
 
 use super::kernel::wide_shr;
-use super::{BRIGHTEST, FixedIntensity, FixedInverse};
+use super::{BRIGHTEST, FixedIntensity, FixedInverse, Unit};
+use crate::math::root;
 use ::fixed::types::I16F16;
 
 /// See `Arithmetic::falloff`.
@@ -19,4 +20,14 @@ pub(super) fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16
 pub(super) fn constant(intensity: &FixedIntensity) -> I16F16 {
     let p = wide_shr(intensity.mantissa_q15 as u32, -i32::from(intensity.exponent) - 1, BRIGHTEST);
     I16F16::from_bits(p as i32)
+}
+
+/// See `Arithmetic::share`: sixteen bits of the length and sixteen of the reciprocal.
+#[inline(always)]
+pub(super) fn share(a: I16F16, inverse: &FixedInverse) -> Unit {
+    let (m_q32, z) = root::normalize(a.to_bits().unsigned_abs());
+    // a = (m/2¹⁶)·2^(−z), the reciprocal mantissa·2^(exponent − 15); the product in Q17
+    let p = (m_q32 >> 16).wrapping_mul(inverse.mantissa_q15);
+    let q17 = wide_shr(p, z as i32 - 2 - inverse.exponent, 1 << 17) as i32;
+    Unit::from_bits(if a.to_bits() < 0 { -q17 } else { q17 })
 }

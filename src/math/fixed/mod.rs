@@ -319,6 +319,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn share(a: I16F16, inverse: &FixedInverse) -> Unit {
+        light::share(a, inverse)
+    }
+
+    #[inline(always)]
     fn over(r: &FixedRadius, v: &[I16F16; 3]) -> [Unit; 3] {
         let f = |v: I16F16| Unit::from_bits(r.divide(v.to_bits()));
         [f(v[0]), f(v[1]), f(v[2])]
@@ -406,6 +411,11 @@ impl Arithmetic for Fixed {
         // a ≤ b ≤ 2 here: a << 14 fits
         let quotient = (a.to_bits() << 14).checked_div(b.to_bits()).unwrap_or(0);
         Weight::from_bits(quotient)
+    }
+
+    #[inline(always)]
+    fn fraction(x: i32) -> Unit {
+        Unit::from_bits(x.wrapping_mul(2))
     }
 
     #[inline(always)]

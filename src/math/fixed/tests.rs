@@ -193,6 +193,16 @@ proptest! {
     }
 
     #[test]
+    fn shares(a in -1.0..1.0f64, distance in 0.02..900.0f64) {
+        let v = lengths_of([distance * 0.6, 0.0, distance * 0.8]);
+        let inverse = Fixed::normalize(&v).2;
+        let a = make::length(a * distance).unwrap();
+        let exact = a.to_num::<f64>() / distance;
+        let got = Fixed::share(a, &inverse).to_num::<f64>();
+        prop_assert!((got - exact).abs() < 2e-4 + 2.0 * LSB / distance, "{got} {exact}");
+    }
+
+    #[test]
     fn cells(x in -500.0..500.0f64, side in 0.05..20.0f64) {
         let (x, per) = (make::length(x).unwrap(), make::length(1.0 / side).unwrap());
         let cell = x.to_num::<f64>() * per.to_num::<f64>();

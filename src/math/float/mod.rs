@@ -213,6 +213,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn share(a: $f, inverse: &$f) -> $f {
+                a * *inverse
+            }
+
+            #[inline(always)]
             fn over(r: &FloatRadius<$f>, v: &[$f; 3]) -> [$f; 3] {
                 [v[0] * r.reciprocal, v[1] * r.reciprocal, v[2] * r.reciprocal]
             }
@@ -349,6 +354,11 @@ macro_rules! float {
             #[inline(always)]
             fn quotient(a: $f, b: $f) -> $f {
                 if b > 0.0 { a / b } else { 0.0 }
+            }
+
+            #[inline(always)]
+            fn fraction(x: i32) -> $f {
+                x as $f * (1.0 / 65536.0)
             }
 
             #[inline(always)]

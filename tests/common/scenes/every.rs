@@ -105,6 +105,7 @@ pub const PARTS: Parts<A> = Parts {
     ambient: Ambient::<A>::new([0.15, 0.15, 0.18]),
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.75, 0.7, 0.6], [0.1, 0.25, 0.6]),
     rules: Rules { specular_cosine: false, ..Rules::COURSE },
+    ..Parts::EMPTY
 };
 
 pub static TREE: OctreeBuffer<256> = OctreeBuffer::build(&PARTS.extents::<BOUNDED>(LOG2_STEP));
