@@ -190,10 +190,11 @@ impl Spec for MaterialSpec {
             transmission,
             index_front,
             index_behind,
+            emission,
             shadow,
             pattern,
         } = self;
-        let colors = [ambient, diffuse, specular, reflection, transmission];
+        let colors = [ambient, diffuse, specular, reflection, transmission, emission];
         colors.into_iter().for_each(|v| to.numbers(v));
         [shininess, index_front, index_behind].into_iter().for_each(|&x| to.number(x));
         to.byte(match shadow {
@@ -219,6 +220,7 @@ impl Spec for MaterialSpec {
             specular: from.numbers()?,
             reflection: from.numbers()?,
             transmission: from.numbers()?,
+            emission: from.numbers()?,
             shininess: from.number()?,
             index_front: from.number()?,
             index_behind: from.number()?,
