@@ -7,6 +7,7 @@ pub mod bake;
 pub mod document;
 pub mod error;
 mod mesh;
+pub mod need;
 pub mod nff;
 pub mod number;
 pub mod obj;
