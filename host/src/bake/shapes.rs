@@ -236,6 +236,11 @@ impl<A: Construct> Shapes<A> {
         self.planes.origins.get(left).copied()
     }
 
+    /// The tree's words, its cube, and the step of its grid, if there is a tree.
+    pub(super) fn words(&self) -> Option<(&[u32], Cube, i8)> {
+        self.tree.as_ref().map(|tree| (tree.words.as_slice(), tree.cube, self.log2_step))
+    }
+
     /// Words and levels of the tree, if there is one.
     pub(super) fn tree(&self) -> Option<(usize, u8)> {
         self.tree.as_ref().map(|tree| (tree.words.len(), tree.levels))
