@@ -59,6 +59,7 @@
 pub mod blob;
 mod draw;
 pub mod frame;
+pub mod gather;
 pub mod math;
 pub mod octree;
 pub mod scene;

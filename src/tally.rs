@@ -27,6 +27,8 @@ pub enum Term {
     Emission,
     /// k_amb·E_amb.
     Ambient,
+    /// k_d·E, the irradiance E coming from other surfaces: an irradiance cache, virtual lights.
+    Indirect,
     /// Light `light` of the scene, diffuse and highlight; area lights are numbered after the
     /// others.
     Direct {

@@ -9,8 +9,10 @@ use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Mat
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::shape::{Plane, Sphere};
 
-/// y is up.
-pub(crate) static SCENE: Scene<A> = Scene::checked(Parts {
+/// y is up. The scene's type names what it uses; code for anything else isn't compiled.
+pub(crate) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
+
+const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([-0.95, 1.15, 1.35], 1.15, MIRROR),
         Sphere::<A>::new([0.95, 0.72, -0.75], 0.72, GLASS),
@@ -31,7 +33,7 @@ pub(crate) static SCENE: Scene<A> = Scene::checked(Parts {
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.93, 0.83, 0.70], [0.10, 0.27, 0.62]),
     rules: Rules { specular_cosine: false, ..Rules::COURSE },
     ..Parts::EMPTY
-});
+};
 
 /// It looks along no line of the checker: rows of pixels on a line would be decided by luck.
 pub(crate) static CAMERA: Camera<A> =
@@ -46,7 +48,7 @@ const JADE: u16 = 5;
 const SAFFRON: u16 = 6;
 const COBALT: u16 = 7;
 
-static MATERIALS: [Material<A>; 8] = [
+const MATERIALS: [Material<A>; 8] = [
     Material::<A>::new(MaterialSpec {
         pattern: Some(PatternSpec { cell: [1.0, 0.0, 1.0], offset: [0.0; 3], other: DARK_TILE }),
         ..painted([0.78, 0.76, 0.70], [0.10; 3])

@@ -8,6 +8,7 @@ pub mod build;
 pub mod document;
 pub mod error;
 mod mesh;
+pub mod need;
 pub mod nff;
 pub mod number;
 pub mod obj;

@@ -138,6 +138,7 @@ impl fmt::Display for Tree {
                     Term::Background => "background".to_string(),
                     Term::Emission => "emission".to_string(),
                     Term::Ambient => "ambient".to_string(),
+                    Term::Indirect => "indirect".to_string(),
                     Term::Direct { light } => format!("light {light}"),
                 };
                 writeln!(f, "{:indent$}  + {}  {name}", "", Color(value))?;

@@ -89,6 +89,10 @@ fn check_says_what_is_in_it() {
         assert!(said.contains(part), "{part}: {said}");
     }
     assert!(said.contains("fixed      yes, scaled by 2^"), "{said}");
+    for part in ["  flash    ", "bytes to trace 5 deep", " a pixel, and ", "Raspberry Pi Pico "] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert!(!said.contains("doesn't fit"), "{said}");
 }
 
 #[test]

@@ -34,8 +34,8 @@ pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedRotatio
 pub use float::FloatSpot;
 pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatScale};
 pub(crate) use hash::{hash, spread};
-pub(crate) use root::normalize as normalize_u32;
 pub use root::sqrt_f32;
+pub(crate) use root::{normalize as normalize_u32, sqrt_u32};
 pub use vector::{add, axis_of, largest, neg, rgb, sub};
 
 pub(crate) use fixed::constructors as fixed_constructors;
@@ -300,6 +300,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn power(cos: Self::Weight, n: &Self::Exponent) -> Self::Weight;
     /// `r·w`.
     fn dim(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
+    /// `r/w`, for a weighted mean: `w` from 1/64 to 1024, the quotient below 1024.
+    fn over_weight(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
     /// `middle + slope·u`, not below 0, for |slope| ≤ middle.
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating.
@@ -308,6 +310,12 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;
     /// The radiance as a number of 1/65536, saturating: what the tone curve reads.
     fn to_q16(r: Self::Radiance) -> i32;
+    /// The radiance of a number of 1/65536.
+    fn from_q16(bits: i32) -> Self::Radiance;
+    /// A component of a unit vector as a number of 1/131072.
+    fn to_q17(u: Self::Unit) -> i32;
+    /// `a/b` as a number of 1/65536, for `a ≥ 0` and `b ≥ 0`; saturating at 2³¹ − 1, also for b = 0.
+    fn ratio_q16(a: Self::Length, b: Self::Length) -> u32;
     /// Intensity times the square of an inverse length, saturating at 1024.
     fn falloff(intensity: &Self::Intensity, inverse: &Self::Inverse) -> Self::Radiance;
     /// Intensity without falloff.

@@ -52,6 +52,7 @@ pub use transform::Transform;
 pub(crate) use area_light::Form;
 pub(crate) use light::Incident;
 
+use crate::gather::Indirect;
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
 use crate::octree::Octree;
 use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, PolygonEdge};
@@ -169,6 +170,8 @@ pub struct Parts<'a, A: Arithmetic> {
     pub light_jitter: Option<u16>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
+    /// What surfaces send each other, instead of the ambient term.
+    pub indirect: Indirect<'a, A>,
     /// What rays see that hit nothing.
     pub background: Background<A>,
     /// Where the classic programs differ.
@@ -196,6 +199,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         light_corners: &[],
         light_jitter: None,
         ambient: Ambient([A::BLACK; 3]),
+        indirect: Indirect::None,
         background: Background::BLACK,
         rules: Rules::COURSE,
     };
@@ -353,6 +357,39 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
             Ok(scene) => scene,
             Err(error) => panic!("{}", error.message()),
         }
+    }
+
+    /// The same scene with other light between its surfaces: irradiance records or virtual lights
+    /// that were made after it.
+    ///
+    /// # Errors
+    /// The scene is tailored to have none.
+    pub const fn with_indirect<'b>(
+        &self,
+        indirect: Indirect<'b, A>,
+    ) -> Result<Scene<'b, A, USES>, SceneError>
+    where
+        'a: 'b,
+    {
+        let missing = indirect.uses() & !USES;
+        if missing != 0 {
+            return Err(SceneError::Uses { missing });
+        }
+        Ok(self.lit_by(indirect))
+    }
+
+    /// Whether a shape shows an area light.
+    pub(crate) fn is_light(&self, shape: u32) -> bool {
+        self.parts.area_lights.iter().any(|light| light.body() == Some(shape))
+    }
+
+    pub(crate) const fn lit_by<'b>(&self, indirect: Indirect<'b, A>) -> Scene<'b, A, USES>
+    where
+        'a: 'b,
+    {
+        let mut scene: Scene<'b, A, USES> = *self;
+        scene.parts.indirect = indirect;
+        scene
     }
 
     /// What the scene was put together from.

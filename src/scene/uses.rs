@@ -74,6 +74,8 @@ pub const EMISSION: u64 = 1 << 23;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
+/// [`Indirect::Cache`](crate::gather::Indirect::Cache).
+pub const IRRADIANCE_CACHE: u64 = 1 << 48;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -98,6 +100,12 @@ pub(crate) const fn has(uses: u64, what: u64) -> bool {
 #[inline(always)]
 pub(crate) const fn has_others(uses: u64) -> bool {
     uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+}
+
+/// Whether there may be diffuse interreflection.
+#[inline(always)]
+pub(crate) const fn has_indirect(uses: u64) -> bool {
+    uses & IRRADIANCE_CACHE != 0
 }
 
 /// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.
@@ -153,6 +161,7 @@ impl<A: Arithmetic> Parts<'_, A> {
         let mut uses = self.shapes().uses()
             | of_instances(self.instances)
             | bit(!self.planes.is_empty(), PLANES)
+            | self.indirect.uses()
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)

@@ -20,6 +20,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     /// The product of the coefficients down the tree.
     pub(super) weight: &'s Rgb<A::Weight>,
     pub(super) depth: u8,
+    /// Phong's highlight counts: not where irradiance is gathered.
+    pub(super) highlights: bool,
     /// Where random numbers come from: another one for each point that is shaded.
     pub(super) key: u32,
 }
@@ -55,7 +57,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         };
         let diffuse = at.material.diffuse;
         let mut factor = diffuse.map(|k| A::weight(k, cosine));
-        if has(USES, uses::HIGHLIGHTS) && at.material.shines {
+        if has(USES, uses::HIGHLIGHTS) && at.material.shines && at.highlights {
             // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
             let lobe = A::cosine(at.mirror, &direction);
             if lobe > A::NO_WEIGHT {

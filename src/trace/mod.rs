@@ -2,10 +2,12 @@
 
 mod area;
 mod direct;
+mod indirect;
 mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod site;
 mod visible;
 mod work;
 

@@ -5,12 +5,13 @@
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
 use super::direct::{Shading, direct};
+use super::indirect::indirect;
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
 use super::work::{Scratch, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
-use crate::scene::uses::{self, has};
+use crate::scene::uses::{self, has, has_indirect};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -41,10 +42,12 @@ impl<A: Arithmetic> Path<A> {
 const RAY_STEP: u32 = 0xc2b2_ae3d;
 
 /// Traces rays in a scene, to a depth that its memory was made for.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(super) scene: &'a Scene<'a, A, USES>,
     depth: u8,
+    /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
+    gathering: bool,
     key: u32,
 }
 
@@ -52,7 +55,13 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth, key: 0 }
+        Self { scene, depth, key: 0, gathering: false }
+    }
+
+    /// A tracer for rays that gather irradiance: what they see of the lights is counted elsewhere.
+    #[inline(always)]
+    pub(crate) fn gathering(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
+        Self { gathering: true, ..Self::new(scene, depth) }
     }
 
     /// The same for a camera's ray of this [`Row::key`](crate::scene::Row::key): where what is
@@ -80,14 +89,43 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
     /// made for is cut.
-    #[inline(never)]
+    #[inline(always)]
     pub fn radiance<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind: RayKind::Primary };
+        self.follow(ray, work, tally).0
+    }
+
+    /// The radiance that a ray which gathers irradiance finds, and how far away.
+    #[inline(always)]
+    pub(crate) fn gather<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> (Rgb<A::Radiance>, A::Length) {
+        self.follow(ray, work, tally)
+    }
+
+    #[inline(always)]
+    fn gathers(&self) -> bool {
+        has(USES, uses::IRRADIANCE_CACHE) && self.gathering
+    }
+
+    /// The radiance along a ray, and, for one that gathers, the distance to what it hits.
+    #[inline(never)]
+    fn follow<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> (Rgb<A::Radiance>, A::Length) {
+        let kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
+        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind };
+        let mut first = A::FAR;
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
         // A number for each ray of the tree, in the order in which they are traced.
@@ -108,6 +146,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 }
                 Some(hit) => {
                     tally.hit::<A>(path.kind, hit.shape, hit.distance);
+                    if has(USES, uses::IRRADIANCE_CACHE) && path.kind == RayKind::Ambient {
+                        first = hit.distance;
+                    }
                     let (more, other) =
                         self.shade(&mut path, &hit, key, &mut sum, &mut work.scratch, tally);
                     if let Some(other) = other
@@ -123,12 +164,12 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 continue;
             }
             if waiting == 0 {
-                return sum;
+                return (sum, first);
             }
             waiting -= 1;
             match work.waiting.get(waiting) {
                 Some(next) => path = *next,
-                None => return sum,
+                None => return (sum, first),
             }
         }
     }
@@ -160,16 +201,22 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         if has(USES, uses::EMISSION)
             && material.emits
             && (!surface.behind || place.material.inside_only())
+            && !(self.gathers() && scene.is_light(hit.shape))
         {
             let radiance = rgb(&material.emission, &path.weight, A::dim);
             tally.term::<A>(Term::Emission, &radiance);
             *sum = rgb(sum, &radiance, A::gather);
         }
 
-        let ambient = &scene.parts.ambient.0;
-        let radiance =
-            rgb(&rgb(&material.ambient, &path.weight, A::weight), ambient, |w, e| A::dim(e, w));
-        tally.term::<A>(Term::Ambient, &radiance);
+        let (share, irradiance, term) = if has_indirect(USES)
+            && let Some(irradiance) = indirect(scene, p, surface.normal)
+        {
+            (&material.diffuse, irradiance, Term::Indirect)
+        } else {
+            (&material.ambient, scene.parts.ambient.0, Term::Ambient)
+        };
+        let radiance = rgb(&rgb(share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
+        tally.term::<A>(term, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 
         let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
@@ -185,6 +232,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             shadow: outside,
             weight: &path.weight,
             depth: path.depth,
+            highlights: !self.gathers(),
             key,
         };
         direct(scene, shading, sum, scratch, tally);

@@ -1,13 +1,13 @@
 //! The frame loop: one row after another, through one row buffer.
 
 use whitted::frame::{Renderer, Rgb888, Settings};
-use whitted::math::Fixed;
+use whitted::math::{Arithmetic, Fixed};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::Work;
 
 use crate::checksum::Checksum;
 use crate::job::{ArithName, Job, MAX_WIDTH};
-use crate::scenes::Shots;
+use crate::scenes::{Shot, Shots, View};
 
 /// The depth that there is memory for.
 pub const MAX_DEPTH: usize = 5;
@@ -26,46 +26,66 @@ impl Watch for () {}
 /// Draws a job, giving each row to `show`. The checksum is that of the pixels, three bytes each,
 /// red first, row by row.
 pub fn draw(job: &Job, watch: &mut impl Watch, show: impl FnMut(&[Rgb888])) -> Checksum {
-    match job.arith {
-        ArithName::Fixed => frame::<Fixed, ()>(job, watch, show).0,
-        ArithName::F32 => frame::<f32, ()>(job, watch, show).0,
-    }
+    run::<()>(job, watch, show).0
 }
 
 /// The same, counting rays, which costs a little.
 pub fn count(job: &Job) -> (Checksum, Counts) {
+    run::<Counts>(job, &mut (), |_| {})
+}
+
+fn run<T: Tally + Copy + Default>(
+    job: &Job,
+    watch: &mut impl Watch,
+    show: impl FnMut(&[Rgb888]),
+) -> (Checksum, T) {
+    let frame = Frame { job, watch, show, tally: T::default() };
     match job.arith {
-        ArithName::Fixed => frame::<Fixed, Counts>(job, &mut (), |_| {}),
-        ArithName::F32 => frame::<f32, Counts>(job, &mut (), |_| {}),
+        ArithName::Fixed => Fixed::shot(job.scene, frame),
+        ArithName::F32 => f32::shot(job.scene, frame),
     }
 }
 
-/// Not inlined, so that its stack frame, with the row and the tracer's memory, is its own.
-///
-/// # Panics
-/// Never: a job's size fits, and no scene is deeper than the memory.
-#[inline(never)]
-fn frame<A: Shots, T: Tally + Copy + Default>(
-    job: &Job,
-    watch: &mut impl Watch,
-    mut show: impl FnMut(&[Rgb888]),
-) -> (Checksum, T) {
-    let shot = A::shot(job.scene);
-    let mut work = Work::<A, MAX_DEPTH>::new();
-    let settings = Settings { depth: shot.depth, ..Settings::new(job.width, job.height) };
-    let mut renderer =
-        Renderer::with_tally(shot.scene, shot.camera, settings, &mut work, &mut [], T::default())
-            .expect("a job fits");
+/// A frame to draw.
+struct Frame<'a, W, S, T> {
+    job: &'a Job,
+    watch: &'a mut W,
+    show: S,
+    tally: T,
+}
 
-    let mut checksum = Checksum::EMPTY;
-    let mut row = [Rgb888::default(); MAX_WIDTH as usize];
-    let row = row.get_mut(..usize::from(job.width)).unwrap_or_default();
-    for y in 0..job.height {
-        watch.before();
-        renderer.line(y, &shot.output, row);
-        watch.after();
-        checksum.add(row.iter().flat_map(|&Rgb888(rgb)| rgb));
-        show(row);
+impl<A, W, S, T> View<A> for Frame<'_, W, S, T>
+where
+    A: Arithmetic,
+    W: Watch,
+    S: FnMut(&[Rgb888]),
+    T: Tally + Copy,
+{
+    type Output = (Checksum, T);
+
+    /// Not inlined, so that its stack frame, with the row and the tracer's memory, is its own.
+    ///
+    /// # Panics
+    /// Never: a job's size fits, and no scene is deeper than the memory.
+    #[inline(never)]
+    fn view<const USES: u64>(mut self, shot: Shot<A, USES>) -> (Checksum, T) {
+        let job = self.job;
+        let mut work = Work::<A, MAX_DEPTH>::new();
+        let settings = Settings { depth: shot.depth, ..Settings::new(job.width, job.height) };
+        let mut renderer =
+            Renderer::with_tally(shot.scene, shot.camera, settings, &mut work, &mut [], self.tally)
+                .expect("a job fits");
+
+        let mut checksum = Checksum::EMPTY;
+        let mut row = [Rgb888::default(); MAX_WIDTH as usize];
+        let row = row.get_mut(..usize::from(job.width)).unwrap_or_default();
+        for y in 0..job.height {
+            self.watch.before();
+            renderer.line(y, &shot.output, row);
+            self.watch.after();
+            checksum.add(row.iter().flat_map(|&Rgb888(rgb)| rgb));
+            (self.show)(row);
+        }
+        (checksum, *renderer.tally())
     }
-    (checksum, *renderer.tally())
 }

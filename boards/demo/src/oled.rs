@@ -10,7 +10,7 @@ use whitted::trace::Work;
 
 use crate::frame::MAX_DEPTH;
 use crate::job::SceneName;
-use crate::scenes::Shots;
+use crate::scenes::{Shot, Shots, View};
 
 /// The display's size.
 pub const SIZE: Size = Size::new(128, 64);
@@ -23,13 +23,23 @@ pub const SIZE: Size = Size::new(128, 64);
 /// # Panics
 /// Never: the scene is no deeper than the memory.
 pub fn draw<D: DrawTarget<Color = Gray4>>(display: &mut D) -> Result<(), D::Error> {
-    let shot = Fixed::shot(SceneName::Showcase);
-    let mut work = Work::<Fixed, MAX_DEPTH>::new();
-    let settings =
-        Settings { depth: shot.depth, ..Settings::new(SIZE.width as u16, SIZE.height as u16) };
-    let renderer = Renderer::new(shot.scene, shot.camera, settings, &mut work, &mut [])
-        .expect("the memory fits");
-    let output = Output { dither: Dither::Ordered, ..shot.output };
-    let picture = Picture::<_, Gray4, MAX_DEPTH>::from_renderer(renderer, output);
-    Image::new(&picture, Point::zero()).draw(display)
+    Fixed::shot(SceneName::Showcase, On(display))
+}
+
+/// A display to draw on.
+struct On<'a, D>(&'a mut D);
+
+impl<D: DrawTarget<Color = Gray4>> View<Fixed> for On<'_, D> {
+    type Output = Result<(), D::Error>;
+
+    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), D::Error> {
+        let mut work = Work::<Fixed, MAX_DEPTH>::new();
+        let settings =
+            Settings { depth: shot.depth, ..Settings::new(SIZE.width as u16, SIZE.height as u16) };
+        let renderer = Renderer::new(shot.scene, shot.camera, settings, &mut work, &mut [])
+            .expect("the memory fits");
+        let output = Output { dither: Dither::Ordered, ..shot.output };
+        let picture = Picture::<_, Gray4, MAX_DEPTH, (), USES>::from_renderer(renderer, output);
+        Image::new(&picture, Point::zero()).draw(self.0)
+    }
 }

@@ -6,26 +6,23 @@ use whitted::trace::Work;
 
 use crate::frame::MAX_DEPTH;
 use crate::job::SceneName;
-use crate::scenes::{Shot, Shots};
+use crate::scenes::{Shot, Shots, View};
 
 /// Bytes a pixel takes.
 pub const BYTES: usize = 2;
 
-/// A scene's shot, in fixed point, and a renderer of it.
+/// A renderer of a shot, in fixed point.
 ///
 /// # Panics
 /// If a side is 0: no scene is deeper than the memory.
-pub fn renderer<'a>(
-    scene: SceneName,
+pub fn renderer<'a, const USES: u64>(
+    shot: &Shot<Fixed, USES>,
     width: u16,
     height: u16,
     work: &'a mut Work<Fixed, MAX_DEPTH>,
-) -> (Shot<Fixed>, Renderer<'a, Fixed, MAX_DEPTH>) {
-    let shot = Fixed::shot(scene);
+) -> Renderer<'a, Fixed, MAX_DEPTH, (), USES> {
     let settings = Settings { depth: shot.depth, ..Settings::new(width, height) };
-    let renderer = Renderer::new(shot.scene, shot.camera, settings, work, &mut [])
-        .expect("a picture with sides");
-    (shot, renderer)
+    Renderer::new(shot.scene, shot.camera, settings, work, &mut []).expect("a picture with sides")
 }
 
 /// Adds pixels to a sum that tells pictures apart, of 32 bits (FNV-1a over pixels), since on a
@@ -42,7 +39,21 @@ pub fn sum(sum: u32, bytes: &[u8]) -> u32 {
 /// # Panics
 /// If a side is 0.
 pub fn draw(scene: SceneName, width: u16, height: u16, bytes: &mut [u8]) {
-    let mut work = Work::new();
-    let (shot, mut renderer) = renderer(scene, width, height, &mut work);
-    renderer.band::<Rgb565>(0, &shot.output, bytes);
+    Fixed::shot(scene, Bytes { width, height, bytes });
+}
+
+struct Bytes<'a> {
+    width: u16,
+    height: u16,
+    bytes: &'a mut [u8],
+}
+
+impl View<Fixed> for Bytes<'_> {
+    type Output = ();
+
+    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) {
+        let mut work = Work::new();
+        let mut renderer = renderer(&shot, self.width, self.height, &mut work);
+        renderer.band::<Rgb565>(0, &shot.output, self.bytes);
+    }
 }

@@ -17,6 +17,8 @@ use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::blob::{self, Blob, Content};
 use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
+use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
+use whitted::gather::{Record, RecordSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
@@ -164,6 +166,7 @@ macro_rules! arithmetic {
                 light_corners: any(&fan),
                 light_jitter: any(Some(3)),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
+                indirect: any(Indirect::None),
                 background: any(background.ok()?),
                 rules: any(Rules::COURSE),
             };
@@ -203,7 +206,39 @@ macro_rules! arithmetic {
 
             let camera =
                 Camera::<$a>::try_look_at(any([0.0; 3]), any([1.0; 3]), any([0.0; 3]), any(1.0));
-            any(camera.ok()?);
+            let camera = any(camera.ok()?);
+            let record = RecordSpec {
+                position: any([0.0; 3]),
+                normal: any([0.0, 1.0, 0.0]),
+                reach: any(1.0),
+                irradiance: any([1.0; 3]),
+                translation: any([0.5; 3]),
+                rotation: any([0.5; 3]),
+            };
+            let mut pool = any([Record::<$a>::try_new(&record).ok()?; 8]);
+            any(pool[0].position());
+            let gathering = GatheringSpec {
+                error: any(0.25),
+                rings: any(5),
+                sectors: any(13),
+                nearest: any(0.25),
+                farthest: any(4.0),
+                bounces: any(2),
+                depth: any(3),
+                coarse: any(8),
+                fine: any(2),
+                seed: any(1),
+            };
+            let gathering = any(Gathering::<$a>::try_new(&gathering).ok()?);
+            any((gathering.rays(), gathering.bounces(), gathering.depth()));
+            let (mut memory, mut counts) = (any(Work::<$a, 5>::new()), <$tally>::default());
+            let gatherer = Gatherer::new(&scene, gathering, &mut memory, &mut counts);
+            let mut drafts = any([Draft::<$a>::NONE; 8]);
+            let size = (any(60), any(60));
+            let filled = gatherer.ok()?.fill(&camera, size, &mut pool, &mut drafts).ok()?;
+            any((filled.is_full(), filled.records().len()));
+            let cache = IrradianceCache::<$a>::try_new(any(filled.records()), any(0.25)).ok()?;
+            let scene = any(scene.with_indirect(any(Indirect::Cache(cache))).ok()?);
             let camera = Camera::<$a>::try_from_vectors(
                 any([0.0; 3]),
                 any([1.0; 3]),
@@ -222,7 +257,7 @@ macro_rules! arithmetic {
             let (mut materials, mut lights) = (any(materials), any(lights));
             let scene: Scene<'_, $a> = blob.scene(any(&mut materials), any(&mut lights)).ok()?;
             any(scene.parts());
-            let (specs, kinds) = (any([spec]), any([point, spot]));
+            let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
             let content = Content {
                 shapes,
                 planes: any(&planes),

@@ -14,6 +14,7 @@ use whitted::trace::Work;
 use whitted_demo::deal::Claim;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::rgb565;
+use whitted_demo::scenes::{Shot, Shots, View};
 use whitted_demo::stack;
 
 use crate::board::{Board, Display};
@@ -59,18 +60,33 @@ fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(),
             });
             sent
         }
-        Way::Graphics => {
-            let mut work = Work::<_, MAX_DEPTH>::new();
-            let Frame { scene, width, height } = frame;
-            let (shot, renderer) = rgb565::renderer(scene, width, height, &mut work);
-            let picture =
-                Picture::<_, pixelcolor::Rgb565, MAX_DEPTH>::from_renderer(renderer, shot.output);
-            Image::new(&picture, Point::zero()).draw(display)
-        }
+        Way::Graphics => Fixed::shot(frame.scene, Graphics { display, frame }),
         Way::Trace => {
             keep(second, frame);
             Ok(())
         }
+    }
+}
+
+/// Drawing with embedded-graphics.
+struct Graphics<'a> {
+    display: &'a mut Display,
+    frame: Frame,
+}
+
+impl View<Fixed> for Graphics<'_> {
+    type Output = Result<(), Infallible>;
+
+    #[inline(never)]
+    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), Infallible> {
+        let mut work = Work::<_, MAX_DEPTH>::new();
+        let Frame { width, height, .. } = self.frame;
+        let renderer = rgb565::renderer(&shot, width, height, &mut work);
+        let picture = Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), USES>::from_renderer(
+            renderer,
+            shot.output,
+        );
+        Image::new(&picture, Point::zero()).draw(self.display)
     }
 }
 
@@ -99,18 +115,37 @@ fn keep(second: &mut Second, frame: Frame) {
     TRACED.store(sum, Ordering::Relaxed);
 }
 
-/// Makes a tracer of a frame's rows, and has `share` give it rows of so many bytes. Not inlined:
-/// the tracer is large, and either core has its memory on its stack.
-#[inline(never)]
+/// Makes a tracer of a frame's rows, and has `share` give it rows of so many bytes.
 pub(crate) fn trace(frame: Frame, share: impl FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))) {
-    let Frame { scene, width, height } = frame;
-    let mut work = Work::<_, MAX_DEPTH>::new();
-    let (shot, mut renderer) = rgb565::renderer(scene, width, height, &mut work);
-    share(frame.line(), &mut |y, bytes| row(&mut renderer, y, &shot.output, bytes));
+    Fixed::shot(frame.scene, Rows { frame, share });
 }
 
-/// Traces a row: one copy of the tracer for all ways but that of embedded-graphics.
+/// Tracing a frame's rows.
+struct Rows<S> {
+    frame: Frame,
+    share: S,
+}
+
+impl<S: FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))> View<Fixed> for Rows<S> {
+    type Output = ();
+
+    /// Not inlined: either core has the tracer's memory on its stack.
+    #[inline(never)]
+    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) {
+        let Self { frame, share } = self;
+        let mut work = Work::<_, MAX_DEPTH>::new();
+        let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);
+        share(frame.line(), &mut |y, bytes| row(&mut renderer, y, &shot.output, bytes));
+    }
+}
+
+/// Traces a row: one copy of a scene's tracer for all ways but that of embedded-graphics.
 #[inline(never)]
-fn row(renderer: &mut Renderer<'_, Fixed, MAX_DEPTH>, y: u16, output: &Output, bytes: &mut [u8]) {
+fn row<const USES: u64>(
+    renderer: &mut Renderer<'_, Fixed, MAX_DEPTH, (), USES>,
+    y: u16,
+    output: &Output,
+    bytes: &mut [u8],
+) {
     renderer.band::<Rgb565>(y, output, bytes);
 }

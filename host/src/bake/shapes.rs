@@ -183,7 +183,8 @@ impl<A: Construct> Shapes<A> {
         let mut room = 8 * extents.len();
         loop {
             let (mut words, mut scratch) = (vec![0; room], vec![0; room]);
-            match build_into(&extents, &mut words, &mut scratch, A::LIMITS) {
+            let mut limits = A::LIMITS; if let Ok(l) = std::env::var("LEAF") { limits.leaf = l.parse().unwrap(); }
+            match build_into(&extents, &mut words, &mut scratch, limits) {
                 Ok(Built { words: used, cube, levels, .. }) => {
                     words.truncate(used);
                     self.tree = Some(Tree { words, cube, levels });

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use whitted::math::Fixed;
 use whitted_host::bake::{Baked, Construct, Placement};
-use whitted_host::document::{Body, Document};
+use whitted_host::document::{Body, Document, Size};
+use whitted_host::need::{self, BOARDS, PROGRAM, Pixel, RESERVE};
 use whitted_host::read;
 
 use super::{Failure, print, warn};
@@ -33,8 +34,56 @@ pub(super) fn run(file: &Path, quiet: bool) -> Result<(), Failure> {
         let beyond = if planes { ", and endless planes" } else { "" };
         line("extent", format_args!("{low} to {high}{beyond}"))?;
     }
-    fits::<f32>(&document, file)?;
-    fits::<Fixed>(&document, file)
+    let size = document.size.unwrap_or(super::render::SIZE);
+    let needs = [fits::<f32>(&document, file, size)?, fits::<Fixed>(&document, file, size)?];
+    boards(&needs, size)
+}
+
+/// What a scene needs in an arithmetic.
+struct Need {
+    arithmetic: &'static str,
+    flash: usize,
+    memory: usize,
+    pixel: Pixel,
+}
+
+/// Which boards the scene fits on, and how long a frame takes there.
+fn boards(needs: &[Option<Need>], size: Size) -> Result<(), Failure> {
+    let needs = || needs.iter().flatten();
+    if needs().next().is_none() {
+        return Ok(());
+    }
+    line("frame", format_args!("{size}, one ray a pixel, times estimated from emulated counts"))?;
+    for board in &BOARDS {
+        let Some(need) = needs().find(|need| need.arithmetic == board.arithmetic) else {
+            continue;
+        };
+        let row = size.width as usize * 2;
+        let (flash, ram) = (need.flash + PROGRAM, need.memory + row + RESERVE);
+        let pixels = f64::from(size.width) * f64::from(size.height);
+        let seconds = board.core.cycles(&need.pixel) * pixels / (board.mhz * 1e6 * board.cores);
+        let verdict = match (flash > board.flash, ram > board.ram) {
+            (false, false) => format!("about {}", rough(seconds)),
+            (true, _) => {
+                format!("doesn't fit: {} of {} KiB of flash", flash / 1024, board.flash / 1024)
+            }
+            (_, true) => {
+                format!("doesn't fit: {} of {} KiB of RAM", ram / 1024, board.ram / 1024)
+            }
+        };
+        print(format_args!("  {:24} {:6} {verdict}\n", board.name, board.arithmetic))?;
+    }
+    Ok(())
+}
+
+/// A time in two digits: no more is known.
+fn rough(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.0995 => format!("{:.0} ms", s * 1e3),
+        s if s < 9.95 => format!("{s:.1} s"),
+        s if s < 99.5 => format!("{s:.0} s"),
+        s => format!("{:.0} min", s / 60.0),
+    }
 }
 
 fn line(name: &str, text: std::fmt::Arguments<'_>) -> Result<(), Failure> {
@@ -55,10 +104,17 @@ fn plural(count: usize, name: &str) -> String {
     }
 }
 
-/// Whether an arithmetic can hold the scene, and how it is placed.
-fn fits<A: Construct>(document: &Document, file: &Path) -> Result<(), Failure> {
+/// Whether an arithmetic can hold the scene, how it is placed, and what it needs.
+fn fits<A: Construct>(
+    document: &Document,
+    file: &Path,
+    size: Size,
+) -> Result<Option<Need>, Failure> {
     match Baked::<A>::new(document) {
-        Err(flaw) => line(A::NAME, format_args!("no: {}", flaw.of(file))),
+        Err(flaw) => {
+            line(A::NAME, format_args!("no: {}", flaw.of(file)))?;
+            Ok(None)
+        }
         Ok(baked) => {
             let placed = match baked.placement {
                 Placement::IDENTITY => "as it is".to_string(),
@@ -71,7 +127,26 @@ fn fits<A: Construct>(document: &Document, file: &Path) -> Result<(), Failure> {
                 Some((words, levels)) => format!("octree {} bytes, {levels} levels", 4 * words),
                 None => "no octree".to_string(),
             };
-            line(A::NAME, format_args!("yes, {placed}; {tree}"))
+            line(A::NAME, format_args!("yes, {placed}; {tree}"))?;
+            let parts = need::flash(&baked).map_err(|flaw| flaw.of(file))?;
+            let flash = parts.iter().map(|(_, bytes)| bytes).sum();
+            let list: Vec<String> =
+                parts.iter().map(|(name, bytes)| format!("{name} {bytes}")).collect();
+            let chip = if size_of::<usize>() > 4 { ", some less on a chip" } else { "" };
+            line("  flash", format_args!("{flash} bytes{chip}: {}", list.join(", ")))?;
+            let depth = document.rules.depth;
+            let memory = need::memory::<A>(depth);
+            line("  memory", format_args!("{memory} bytes to trace {depth} deep, and rows"))?;
+            let pixel = need::pixel(&baked, size, depth).map_err(|flaw| flaw.of(file))?;
+            let Pixel { rays, shadow, nodes, tests } = pixel;
+            let rays = format!("{rays:.2} a pixel, and {shadow:.2} to lights");
+            let each = 1.0 / (pixel.rays + pixel.shadow).max(1.0);
+            let (nodes, tests) = (nodes * each, tests * each);
+            line(
+                "  rays",
+                format_args!("{rays}; each tests {tests:.1} shapes in {nodes:.1} nodes"),
+            )?;
+            Ok(Some(Need { arithmetic: A::NAME, flash, memory, pixel }))
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Products that are wider than a word, from products that are not.
 
 use super::Unit;
+use crate::math::root;
 use ::fixed::types::I16F16;
 
 /// `t·u / 2¹⁷`, exactly the 64-bit result, for |t·u| < 2⁴⁴ and |u| ≤ 2¹⁸.
@@ -74,6 +75,22 @@ pub(super) fn wide_shr(x: u32, n: i32, limit: u32) -> u32 {
     }
 }
 
+/// `a·2^up/b` for a ≥ 0, at most 2³¹ − 1, and that for b ≤ 0; up at most 16. Relative error below
+/// 2⁻¹⁷. The product is of 64 bits: it is for what is done once a record, not once a ray.
+#[inline(never)]
+pub(super) fn ratio(a: i32, b: i32, up: u32) -> u32 {
+    const MOST: u32 = i32::MAX as u32;
+    if b <= 0 {
+        return MOST;
+    }
+    // b = m·2⁻ᶻ, and 1/m is y·2⁻⁶⁰
+    let (m, z) = root::normalize(b as u32);
+    let product = u64::from(if a < 0 { 0 } else { a as u32 })
+        .wrapping_mul(u64::from(root::reciprocal_q28(m)));
+    let quotient = product >> (60u32.wrapping_sub(up).wrapping_sub(z) & 63);
+    if quotient > u64::from(MOST) { MOST } else { quotient as u32 }
+}
+
 /// The bits of three lengths.
 #[inline(always)]
 pub(super) fn lengths(v: &[I16F16; 3]) -> [i32; 3] {
@@ -119,6 +136,13 @@ mod tests {
             let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt().max(1e-3);
             let d = d.map(|x| (x / length * 131072.0) as i32);
             prop_assert_eq!(project_narrow(&v, &d), project_wide(&v, &d));
+        }
+
+        #[test]
+        fn ratios_to_seventeen_bits(a in 0..=i32::MAX, b in 1..=i32::MAX, up in 0u32..=16) {
+            let exact = (f64::from(a) * f64::from(1u32 << up) / f64::from(b)).min(2147483647.0);
+            let got = f64::from(ratio(a, b, up));
+            prop_assert!((got - exact).abs() <= 1.0 + exact * 0.5f64.powi(17), "{got} {exact}");
         }
 
         #[test]

@@ -436,6 +436,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn over_weight(r: I16F16, w: Weight) -> I16F16 {
+        I16F16::from_bits(kernel::ratio(r.to_bits(), w.to_bits(), 14) as i32)
+    }
+
+    #[inline(always)]
     fn ramp(middle: I16F16, slope: I16F16, u: Unit) -> I16F16 {
         // Rounding can leave u a little beyond ±1.
         let sum = middle.to_bits().wrapping_add(length_times_unit(slope.to_bits(), u.to_bits()));
@@ -460,6 +465,21 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn to_q16(r: I16F16) -> i32 {
         r.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_q16(bits: i32) -> I16F16 {
+        I16F16::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn to_q17(u: Unit) -> i32 {
+        u.to_bits()
+    }
+
+    #[inline(always)]
+    fn ratio_q16(a: I16F16, b: I16F16) -> u32 {
+        kernel::ratio(a.to_bits(), b.to_bits(), 16)
     }
 
     #[inline(always)]

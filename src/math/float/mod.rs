@@ -392,6 +392,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn over_weight(r: $f, w: $f) -> $f {
+                if w > 0.0 { r / w } else { 0.0 }
+            }
+
+            #[inline(always)]
             fn ramp(middle: $f, slope: $f, u: $f) -> $f {
                 let sum = middle + slope * u;
                 if sum < 0.0 { 0.0 } else { sum }
@@ -411,6 +416,22 @@ macro_rules! float {
             fn to_q16(r: $f) -> i32 {
                 // `as` saturates, and takes no number for 0.
                 (r * 65536.0 + 0.5) as i32
+            }
+
+            #[inline(always)]
+            fn from_q16(bits: i32) -> $f {
+                bits as $f * (1.0 / 65536.0)
+            }
+
+            #[inline(always)]
+            fn to_q17(u: $f) -> i32 {
+                (u * 131072.0) as i32
+            }
+
+            #[inline(always)]
+            fn ratio_q16(a: $f, b: $f) -> u32 {
+                let q = if b > 0.0 { (a / b * 65536.0) as u32 } else { u32::MAX };
+                if q > i32::MAX as u32 { i32::MAX as u32 } else { q }
             }
 
             #[inline(always)]

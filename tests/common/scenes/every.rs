@@ -1,6 +1,7 @@
 //! One of every shape, light and sort of material, with an octree that the compiler builds.
 
 use super::A;
+use whitted::gather::Indirect;
 use whitted::octree::{Octree, OctreeBuffer};
 use whitted::scene::{
     Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
@@ -103,6 +104,7 @@ pub const PARTS: Parts<A> = Parts {
         }),
     ],
     ambient: Ambient::<A>::new([0.15, 0.15, 0.18]),
+    indirect: Indirect::None,
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.75, 0.7, 0.6], [0.1, 0.25, 0.6]),
     rules: Rules { specular_cosine: false, ..Rules::COURSE },
     ..Parts::EMPTY

@@ -22,6 +22,16 @@ pub struct Shot<A: Arithmetic> {
     pub tone: Tone,
 }
 
+/// What is to be done with scenes whose types say what they use.
+pub trait Tailored<A: Arithmetic> {
+    fn scene<const USES: u64>(
+        &mut self,
+        name: &str,
+        scene: &'static Scene<'static, A, USES>,
+        camera: &'static Camera<A>,
+    );
+}
+
 /// An arithmetic that the scenes are there in.
 pub trait Shots: Arithmetic {
     const SHOTS: &'static [Shot<Self>; 6];

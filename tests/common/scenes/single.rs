@@ -13,8 +13,9 @@ mod showcase;
 #[path = "small.rs"]
 pub mod small;
 
-use super::Shot;
+use super::{Shot, Tailored};
 use whitted::frame::Tone;
+use whitted::scene::Scene;
 
 pub type A = f32;
 
@@ -38,24 +39,44 @@ pub static SHOTS: [Shot<A>; 6] = [
     },
     Shot {
         name: "showcase",
-        scene: &showcase::SCENE,
+        scene: &Scene::checked(*showcase::SCENE.parts()),
         camera: &showcase::CAMERA,
         depth: 5,
         tone: Tone::SRGB,
     },
     Shot {
         name: "limit",
-        scene: &limit::SCENE,
+        scene: &Scene::checked(*limit::SCENE.parts()),
         camera: &limit::CAMERA,
         depth: 4,
         tone: Tone::LINEAR,
     },
     Shot {
         name: "raystones",
-        scene: &raystones::SCENE,
+        scene: &Scene::checked(*raystones::SCENE.parts()),
         camera: &raystones::CAMERA,
         depth: 3,
         tone: Tone::LINEAR,
     },
-    Shot { name: "ftb", scene: &ftb::SCENE, camera: &ftb::CAMERA, depth: 3, tone: Tone::LINEAR },
+    Shot {
+        name: "ftb",
+        scene: &Scene::checked(*ftb::SCENE.parts()),
+        camera: &ftb::CAMERA,
+        depth: 3,
+        tone: Tone::LINEAR,
+    },
 ];
+
+/// Every scene, its type naming what it uses.
+pub fn tailored(view: &mut impl Tailored<A>) {
+    static SMALL: Scene<A, { small::SCENE.parts().uses() }> =
+        Scene::tailored(*small::SCENE.parts());
+    static EVERY: Scene<A, { every::SCENE.parts().uses() }> =
+        Scene::tailored(*every::SCENE.parts());
+    view.scene("small", &SMALL, &small::CAMERA);
+    view.scene("every", &EVERY, &every::CAMERA);
+    view.scene("showcase", &showcase::SCENE, &showcase::CAMERA);
+    view.scene("limit", &limit::SCENE, &limit::CAMERA);
+    view.scene("raystones", &raystones::SCENE, &raystones::CAMERA);
+    view.scene("ftb", &ftb::SCENE, &ftb::CAMERA);
+}

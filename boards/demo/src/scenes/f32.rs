@@ -11,7 +11,7 @@ mod showcase;
 
 use whitted::frame::{Output, Tone};
 
-use super::Shot;
+use super::{Shot, View};
 use crate::job::SceneName;
 
 type A = f32;
@@ -22,12 +22,24 @@ const LIMIT_CUTOFF: <A as whitted::math::Arithmetic>::Weight = 4.5 / 256.0;
 /// The old programs' colours are display values.
 const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
 
-pub(super) fn shot(name: SceneName) -> Shot<A> {
-    let (scene, camera, depth, output) = match name {
-        SceneName::Showcase => (&showcase::SCENE, &showcase::CAMERA, 5, Output::SRGB),
-        SceneName::Limit => (&limit::SCENE, &limit::CAMERA, 4, LINEAR),
-        SceneName::Raystones => (&raystones::SCENE, &raystones::CAMERA, 3, LINEAR),
-        SceneName::Ftb => (&ftb::SCENE, &ftb::CAMERA, 3, LINEAR),
-    };
-    Shot { scene, camera, depth, output }
+#[inline(always)]
+pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
+    match name {
+        SceneName::Showcase => {
+            let (scene, camera) = (&showcase::SCENE, &showcase::CAMERA);
+            view.view(Shot { scene, camera, depth: 5, output: Output::SRGB })
+        }
+        SceneName::Limit => {
+            let (scene, camera) = (&limit::SCENE, &limit::CAMERA);
+            view.view(Shot { scene, camera, depth: 4, output: LINEAR })
+        }
+        SceneName::Raystones => {
+            let (scene, camera) = (&raystones::SCENE, &raystones::CAMERA);
+            view.view(Shot { scene, camera, depth: 3, output: LINEAR })
+        }
+        SceneName::Ftb => {
+            let (scene, camera) = (&ftb::SCENE, &ftb::CAMERA);
+            view.view(Shot { scene, camera, depth: 3, output: LINEAR })
+        }
+    }
 }

@@ -11,7 +11,9 @@ use whitted::scene::{Ambient, Background, Camera, Falloff, Light, LightSpec, Mat
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene};
 use whitted::shape::{Plane, Sphere};
 
-pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
+pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
+
+const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([5.0, 15.0, 8.0], 5.0, 0),
         Sphere::<A>::new([-6.0, 12.0, 4.0], 3.0, 0),
@@ -38,7 +40,7 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
     background: Background::<A>::gradient([0.0, 0.0, 1.0], [1.5, 0.4, 1.3], [0.1, 0.0, 0.3]),
     rules: Rules::NFF,
     ..Parts::EMPTY
-});
+};
 
 /// A pixel is 0.45/(height/2) wide at distance 1.
 pub(super) static CAMERA: Camera<A> =

@@ -9,7 +9,9 @@ use whitted::scene::{Ambient, Background, Camera, Light, Material, MaterialSpec,
 use whitted::scene::{PatternSpec, Scene};
 use whitted::shape::{Plane, Sphere};
 
-pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
+pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
+
+const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([0.0, 0.0, 4.0], 1.0, 0),
         Sphere::<A>::new([-2.25, 0.0, 5.0], 1.0, 1),
@@ -39,7 +41,7 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
     ),
     rules: Rules { cutoff: LIMIT_CUTOFF, ..Rules::WHITTED },
     ..Parts::EMPTY
-});
+};
 
 pub(super) static CAMERA: Camera<A> = Camera::<A>::from_vectors(
     [0.0137, 0.5, -1.0],

@@ -1,7 +1,8 @@
 //! The scenes, once for each arithmetic.
 //!
 //! A scene's file is written over a type `A` that the module above it names, because a `static`
-//! can't be generic.
+//! can't be generic. Each scene has a type of its own, which says what of the library it uses: a
+//! firmware holds the code for that and no more.
 
 #![allow(clippy::duplicate_mod, reason = "each arithmetic needs the scenes anew")]
 
@@ -16,9 +17,9 @@ use whitted::scene::{Camera, Scene};
 use crate::job::SceneName;
 
 /// A scene, and how it is to be seen.
-pub struct Shot<A: Arithmetic> {
+pub struct Shot<A: Arithmetic, const USES: u64> {
     /// The scene.
-    pub scene: &'static Scene<'static, A>,
+    pub scene: &'static Scene<'static, A, USES>,
     /// Where from.
     pub camera: &'static Camera<A>,
     /// How deep the tree of rays may be.
@@ -27,20 +28,31 @@ pub struct Shot<A: Arithmetic> {
     pub output: Output,
 }
 
+/// What is to be done with a scene of any type: a closure that is generic.
+pub trait View<A: Arithmetic> {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> Self::Output;
+}
+
 /// An arithmetic that the scenes are there in.
 pub trait Shots: Arithmetic {
-    /// The scene of a name.
-    fn shot(name: SceneName) -> Shot<Self>;
+    /// Does something with the scene of a name.
+    fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output;
 }
 
 impl Shots for Fixed {
-    fn shot(name: SceneName) -> Shot<Self> {
-        fixed::shot(name)
+    #[inline(always)]
+    fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output {
+        fixed::shot(name, view)
     }
 }
 
 impl Shots for f32 {
-    fn shot(name: SceneName) -> Shot<Self> {
-        float::shot(name)
+    #[inline(always)]
+    fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output {
+        float::shot(name, view)
     }
 }

@@ -9,7 +9,9 @@ use whitted::scene::{Background, Camera, Falloff, Light, LightSpec, Material, Ma
 use whitted::scene::{Parts, PatternSpec, Rules, Scene};
 use whitted::shape::{Polygon, Sphere};
 
-pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
+pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
+
+const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([-3.0, 0.0, -16.0], 2.0, 0),
         Sphere::<A>::new([-1.0, -1.5, -12.0], 2.0, 1),
@@ -39,7 +41,7 @@ pub(super) static SCENE: Scene<A> = Scene::checked(Parts {
     background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.0; 3], [0.2, 0.7, 1.3]),
     rules: Rules::NFF,
     ..Parts::EMPTY
-});
+};
 
 pub(super) static CAMERA: Camera<A> =
     Camera::<A>::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 60.0);

@@ -1,0 +1,238 @@
+//! What a scene needs of a chip: flash, memory and, roughly, time.
+
+use whitted::scene::Parts;
+use whitted::tally::Counts;
+use whitted::trace::Work;
+
+use crate::bake::{Baked, Construct};
+use crate::document::Size;
+use crate::error::Flaw;
+use crate::render::{Sampling, Settings, render};
+
+/// The picture whose rays are counted to tell those of larger ones.
+const TRIAL: u32 = 64;
+
+/// Bytes of flash that a scene's parts take, each kind by its name; those that there are none of
+/// are left out.
+pub fn flash<A: Construct>(baked: &Baked<A>) -> Result<Vec<(&'static str, usize)>, Flaw> {
+    let scene = baked.scene()?;
+    let parts = scene.parts();
+    macro_rules! sizes {
+        ($($kind:ident $name:literal),*) => {
+            [$(($name, size_of_val(parts.$kind))),*]
+        };
+    }
+    let mut sizes = sizes!(
+        spheres "spheres", triangles "triangles", smooth_triangles "smooth triangles",
+        polygons "polygons", edges "their edges", cuboids "boxes", discs "discs",
+        cylinders "cylinders", cones "cones", planes "planes", instances "instances",
+        materials "materials", lights "lights"
+    )
+    .to_vec();
+    sizes.push(("octree", baked.tree().map_or(0, |(words, _)| words * size_of::<u32>())));
+    sizes.push(("the rest", size_of::<Parts<'_, A>>()));
+    sizes.retain(|&(_, bytes)| bytes > 0);
+    Ok(sizes)
+}
+
+/// Bytes of memory that a tracer works in, for trees of rays of this depth.
+pub fn memory<A: Construct>(depth: u8) -> usize {
+    let one = size_of::<Work<A, 1>>();
+    one + usize::from(depth.max(1) - 1) * (size_of::<Work<A, 2>>() - one)
+}
+
+/// What a pixel takes, on average.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pixel {
+    /// Rays, but for those to lights.
+    pub rays: f64,
+    /// Rays to lights.
+    pub shadow: f64,
+    /// Nodes of the octree visited.
+    pub nodes: f64,
+    /// Shapes tested.
+    pub tests: f64,
+}
+
+/// Counts on a small picture, one ray a pixel, what a pixel takes.
+///
+/// # Errors
+/// Those of [`render`].
+pub fn pixel<A: Construct>(baked: &Baked<A>, size: Size, depth: u8) -> Result<Pixel, Flaw> {
+    let longer = f64::from(size.width.max(size.height));
+    let side = |side: u32| ((f64::from(side) * f64::from(TRIAL) / longer) as u32).max(1);
+    let settings = Settings {
+        size: Size { width: side(size.width), height: side(size.height) },
+        depth,
+        sampling: Sampling::Center,
+        show: None,
+        threads: std::num::NonZeroUsize::MIN,
+    };
+    let counts = render(baked, &settings, |_| {})?.counts;
+    let Counts { primary, shadow, nodes, tests, .. } = counts;
+    let a_pixel = |n: u64| n as f64 / primary.max(1) as f64;
+    Ok(Pixel {
+        rays: a_pixel(counts.rays() - shadow),
+        shadow: a_pixel(shadow),
+        nodes: a_pixel(nodes),
+        tests: a_pixel(tests),
+    })
+}
+
+/// What a core spends, in clock cycles: fitted to the counts in `bench/table.md`.
+#[derive(Clone, Copy, Debug)]
+pub struct Core {
+    /// For each pixel.
+    pub pixel: f64,
+    /// For each ray, shadow rays among them, besides its tests and nodes.
+    pub ray: f64,
+    /// For each shape tested.
+    pub test: f64,
+    /// For each node of the octree visited.
+    pub node: f64,
+}
+
+impl Core {
+    /// Cycles of a pixel.
+    pub fn cycles(&self, pixel: &Pixel) -> f64 {
+        self.pixel
+            + self.ray * (pixel.rays + pixel.shadow)
+            + self.test * pixel.tests
+            + self.node * pixel.nodes
+    }
+}
+
+/// A board that people have.
+#[derive(Clone, Copy, Debug)]
+pub struct Board {
+    /// Its name.
+    pub name: &'static str,
+    /// The arithmetic that suits it.
+    pub arithmetic: &'static str,
+    /// Its clock, in megahertz.
+    pub mhz: f64,
+    /// How many cores trace.
+    pub cores: f64,
+    /// Bytes of flash.
+    pub flash: usize,
+    /// Bytes of memory.
+    pub ram: usize,
+    /// What it spends.
+    pub core: Core,
+}
+
+const KIB: usize = 1024;
+
+/// Flash that the program takes besides the scene: the tracer with everything in it, a display's
+/// driver and a HAL.
+pub const PROGRAM: usize = 96 * KIB;
+
+/// Memory that isn't there for the tracer: a deep stack, a HAL's and a display's.
+pub const RESERVE: usize = 6 * KIB;
+
+const M0_PLUS: Core = Core { pixel: 400.0, ray: 700.0, test: 170.0, node: 250.0 };
+const M3: Core = Core { pixel: 300.0, ray: 500.0, test: 110.0, node: 150.0 };
+const M4F: Core = Core { pixel: 150.0, ray: 300.0, test: 60.0, node: 100.0 };
+
+/// The boards that the documentation names.
+pub const BOARDS: [Board; 8] = [
+    Board {
+        name: "Raspberry Pi Pico",
+        arithmetic: "fixed",
+        mhz: 125.0,
+        cores: 2.0,
+        flash: 2048 * KIB,
+        ram: 264 * KIB,
+        core: M0_PLUS,
+    },
+    Board {
+        name: "Raspberry Pi Pico 2",
+        arithmetic: "f32",
+        mhz: 150.0,
+        cores: 1.0,
+        flash: 4096 * KIB,
+        ram: 520 * KIB,
+        core: M4F,
+    },
+    Board {
+        name: "STM32F411 (Black Pill)",
+        arithmetic: "f32",
+        mhz: 100.0,
+        cores: 1.0,
+        flash: 512 * KIB,
+        ram: 128 * KIB,
+        core: M4F,
+    },
+    Board {
+        name: "STM32F405",
+        arithmetic: "f32",
+        mhz: 168.0,
+        cores: 1.0,
+        flash: 1024 * KIB,
+        ram: 128 * KIB,
+        core: M4F,
+    },
+    Board {
+        name: "nRF52840",
+        arithmetic: "f32",
+        mhz: 64.0,
+        cores: 1.0,
+        flash: 1024 * KIB,
+        ram: 256 * KIB,
+        core: M4F,
+    },
+    Board {
+        name: "BBC micro:bit 2",
+        arithmetic: "f32",
+        mhz: 64.0,
+        cores: 1.0,
+        flash: 512 * KIB,
+        ram: 128 * KIB,
+        core: M4F,
+    },
+    Board {
+        name: "LM3S6965",
+        arithmetic: "fixed",
+        mhz: 50.0,
+        cores: 1.0,
+        flash: 256 * KIB,
+        ram: 64 * KIB,
+        core: M3,
+    },
+    Board {
+        name: "BBC micro:bit 1",
+        arithmetic: "fixed",
+        mhz: 16.0,
+        cores: 1.0,
+        flash: 256 * KIB,
+        ram: 16 * KIB,
+        core: M0_PLUS,
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::{flash, memory};
+    use crate::bake::Baked;
+    use crate::read::{Format, parse};
+    use whitted::math::Fixed;
+
+    #[test]
+    fn parts_are_counted() {
+        let text = include_bytes!("../scenes/limit.toml");
+        let baked = Baked::<Fixed>::new(&parse(Format::Toml, text).unwrap()).unwrap();
+        let parts = flash(&baked).unwrap();
+        let of = |name| parts.iter().find(|part| part.0 == name).map(|part| part.1);
+        assert_eq!(of("spheres"), Some(3 * 24));
+        assert_eq!(of("triangles"), None);
+        assert_eq!(of("octree"), None);
+    }
+
+    #[test]
+    fn memory_grows_by_a_ray_a_level() {
+        let step = memory::<Fixed>(2) - memory::<Fixed>(1);
+        assert_eq!(memory::<Fixed>(8) - memory::<Fixed>(5), 3 * step);
+        // The budget is 4 KiB for five levels, without rows.
+        assert!(memory::<Fixed>(5) <= 4096);
+    }
+}

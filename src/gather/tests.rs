@@ -1,0 +1,124 @@
+use super::fill::Place;
+use super::*;
+use crate::math::Fixed;
+use crate::scene::{Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Scene};
+use crate::shape::{Leaving, Polygon, Sphere};
+use crate::tally::Counts;
+use crate::trace::Work;
+extern crate std;
+use std::vec;
+
+/// Inside a sphere of albedo ½ every point gets as much from the others: half of what a light of
+/// intensity π gives on average, 1 in our units, and with all further bounces twice as much.
+macro_rules! integrating_sphere {
+    ($name:ident, $a:ty) => {
+        #[test]
+        fn $name() {
+            let spheres = [Sphere::<$a>::new([0.0; 3], 1.0, 0)];
+            let materials =
+                [Material::<$a>::new(MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK })];
+            let lights = [Light::<$a>::point([0.3, 0.0, 0.0], [1.0; 3])];
+            let scene = Scene::<$a>::new(Parts {
+                spheres: &spheres,
+                materials: &materials,
+                lights: &lights,
+                ..Parts::EMPTY
+            })
+            .expect("a scene");
+            let camera = Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
+            for (bounces, wanted) in [(1, 0.25), (10, 0.5)] {
+                let spec = GatheringSpec {
+                    error: 0.25,
+                    nearest: 0.05,
+                    farthest: 2.0,
+                    bounces,
+                    ..GatheringSpec::DEFAULT
+                };
+                let mut work = Work::<$a, 4>::new();
+                let mut counts = Counts::default();
+                let mut pool = vec![Record::<$a>::NONE; 600];
+                let mut drafts = vec![Draft::<$a>::NONE; 600];
+                let cache =
+                    Gatherer::new(&scene, Gathering::<$a>::new(spec), &mut work, &mut counts)
+                        .expect("settings")
+                        .fill(&camera, (160, 120), &mut pool, &mut drafts)
+                        .expect("memory");
+                let (mut mean, mut worst) = (0.0, 0.0f64);
+                for record in cache.records() {
+                    let e: f64 = record.irradiance()[0].into();
+                    mean += e * 0.5;
+                    worst = worst.max((e * 0.5 / wanted - 1.0).abs());
+                }
+                let count = cache.records().len();
+                mean /= count as f64;
+                assert!((mean / wanted - 1.0).abs() < 0.005, "{mean}");
+                assert!(worst < 0.04, "{worst}");
+            }
+        }
+    };
+}
+
+integrating_sphere!(integrating_sphere_in_fixed, Fixed);
+integrating_sphere!(integrating_sphere_in_f32, f32);
+integrating_sphere!(integrating_sphere_in_f64, f64);
+
+/// A floor before a lit wall, under a sky: how the gradients of a record say the irradiance changes,
+/// and how it does.
+#[test]
+fn gradients_are_the_change() {
+    type A = f64;
+    let corners = [[2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [2.0, 2.0, 2.0], [2.0, 2.0, -2.0]];
+    let polygons = [Polygon::<A>::new(&corners, 0, 0)];
+    let edges: [_; 4] = core::array::from_fn(|i| Polygon::<A>::try_edge(&corners, i).expect("4"));
+    let diffuse = MaterialSpec { diffuse: [0.8; 3], ..MaterialSpec::BLACK };
+    let materials = [Material::<A>::new(diffuse), Material::<A>::new(MaterialSpec::BLACK)];
+    let direction = [1.0, 0.0, 0.0];
+    let lights = [Light::<A>::new(LightSpec::Directional { direction, intensity: [1.0; 3] })];
+    let scene = Scene::<A>::new(Parts {
+        polygons: &polygons,
+        edges: &edges,
+        materials: &materials,
+        lights: &lights,
+        background: Background::<A>::uniform([0.2; 3]),
+        ..Parts::EMPTY
+    })
+    .expect("a scene");
+    let gathering = Gathering::<A>::new(GatheringSpec {
+        rings: 16,
+        sectors: 64,
+        farthest: 10.0,
+        ..GatheringSpec::DEFAULT
+    });
+    let mut work = Work::<A, 4>::new();
+    let mut none = ();
+    let mut gatherer = Gatherer::new(&scene, gathering, &mut work, &mut none).expect("settings");
+    let mut at = |position: [f64; 3], normal: [f64; 3]| {
+        let leaving = Leaving::NOTHING;
+        let place = Place { position, normal, origin: position, leaving };
+        // the mean of some seeds: the difference of two is small
+        let records: std::vec::Vec<_> =
+            (0..64).map(|seed| gatherer.gather(&scene, &place, seed).spec()).collect();
+        let mean = |f: &dyn Fn(&RecordSpec) -> f64| {
+            records.iter().map(f).sum::<f64>() / records.len() as f64
+        };
+        let e = mean(&|r| r.irradiance[0]);
+        let t = [0, 1, 2].map(|i| mean(&|r| r.translation[i] / r.reach) * e);
+        let r = [0, 1, 2].map(|i| mean(&|r| r.rotation[i]) * e);
+        (e, t, r)
+    };
+    let (e, t, r) = at([0.0; 3], [0.0, 1.0, 0.0]);
+    let h = 0.1;
+    let change =
+        |a: (f64, [f64; 3], [f64; 3]), b: (f64, [f64; 3], [f64; 3])| (a.0 - b.0) / (2.0 * h);
+    let up = [0.0, 1.0, 0.0];
+    let along_x = change(at([h, 0.0, 0.0], up), at([-h, 0.0, 0.0], up));
+    let along_z = change(at([0.0, 0.0, h], up), at([0.0, 0.0, -h], up));
+    assert!(e > 0.05 && along_x > 0.03, "{e} {along_x}");
+    assert!((t[0] - along_x).abs() < 0.1 * along_x, "{t:?}: {along_x}");
+    assert!((t[2] - along_z).abs() < 0.1 * along_x && t[1].abs() < 1e-3, "{t:?}: {along_z}");
+    // the normal bent towards the wall: N × N' is −z
+    let mut bent = |s: f64| at([0.0; 3], [(s * h).sin(), (s * h).cos(), 0.0]);
+    let turned = change(bent(1.0), bent(-1.0));
+    assert!((-r[2] - turned).abs() < 0.1 * turned, "{r:?}: {turned}");
+    assert!(r[0].abs() < 0.1 * turned && r[1].abs() < 0.1 * turned, "{r:?}: {turned}");
+}

@@ -1,0 +1,71 @@
+//! Places where diffuse light is wanted, for what fills irradiance caches and lays virtual lights.
+
+use super::meet::surface_at;
+use super::{Tracer, Work};
+use crate::math::{Arithmetic, Rgb, largest, neg};
+use crate::scene::uses::{self, has};
+use crate::shape::{Leaving, Meeting, Ray, Surface};
+use crate::tally::{RayKind, Tally};
+
+/// A point that a ray found.
+pub(crate) struct Site<A: Arithmetic> {
+    pub(crate) position: [A::Length; 3],
+    pub(crate) surface: Surface<A>,
+    /// A ray from there outwards; its direction is the mirror's.
+    pub(crate) outside: Ray<A>,
+    pub(crate) diffuse: Rgb<A::Weight>,
+    /// Where a specular path goes on: through the surface if it transmits, else along the mirror
+    /// direction if it reflects.
+    pub(crate) next: Option<(RayKind, Ray<A>)>,
+}
+
+impl<A: Arithmetic> Site<A> {
+    /// Whether the surface sends diffuse light back.
+    pub(crate) fn is_diffuse(&self) -> bool {
+        largest(&self.diffuse) > A::NO_WEIGHT
+    }
+}
+
+impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
+    /// The point that a ray finds.
+    #[inline(never)]
+    pub(crate) fn site<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        kind: RayKind,
+        ray: Ray<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> Option<Site<A>> {
+        tally.ray(kind, 1, &ray, &[A::FULL; 3]);
+        let hit = self.nearest(&ray, work, tally)?;
+        tally.hit::<A>(kind, hit.shape, hit.distance);
+        let mut position = A::along(&ray.origin, hit.distance, &ray.direction);
+        let meeting = Meeting { distance: hit.distance, detail: hit.detail };
+        let place = surface_at(self.scene, hit.shape, &ray, &meeting, &mut position)?;
+        let surface = place.surface;
+        let material = self.scene.material_at(place.material, &place.local)?;
+        let outside = Ray {
+            origin: A::leave(&position, &surface.geometric, hit.distance),
+            direction: A::reflect(&ray.direction, &surface.normal, -surface.cosine),
+            leaving: Leaving::back(hit.shape, &surface),
+        };
+        let mut next = None;
+        if has(USES, uses::REFLECTION) && material.reflects {
+            next = Some((RayKind::Reflection, outside));
+        }
+        if has(USES, uses::TRANSMISSION) && material.transmits {
+            let eta = if surface.behind { &material.eta[1] } else { &material.eta[0] };
+            let through = A::refract(&ray.direction, &surface.normal, surface.cosine, eta);
+            next = Some(match through {
+                Some(direction) => {
+                    let origin = A::leave(&position, &neg(&surface.geometric), hit.distance);
+                    let leaving = Leaving::through(hit.shape, &surface);
+                    (RayKind::Transmission, Ray { origin, direction, leaving })
+                }
+                None => (RayKind::Reflection, outside),
+            });
+        }
+        let diffuse = material.diffuse;
+        Some(Site { position, surface, outside, diffuse, next })
+    }
+}

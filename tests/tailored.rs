@@ -1,0 +1,87 @@
+//! Scenes whose types say what they use: the same bits as with all the code there is, and no scene
+//! that uses more than its type says.
+
+mod common;
+
+use common::scenes::{Tailored, double, fixed, single};
+use whitted::frame::{Renderer, Settings};
+use whitted::math::{Arithmetic, Rgb};
+use whitted::scene::{Camera, Scene, SceneError};
+use whitted::tally::Counts;
+use whitted::trace::Work;
+
+/// The picture's radiances, and what was counted.
+fn picture<A: Arithmetic, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    camera: &Camera<A>,
+) -> (Vec<Rgb<A::Radiance>>, Counts) {
+    let settings = Settings::new(60, 45);
+    let mut work = Work::<A, 5>::new();
+    let mut renderer =
+        Renderer::with_tally(scene, camera, settings, &mut work, &mut [], Counts::default())
+            .expect("settings");
+    let radiances = renderer.scan(0..60, 0..45).map(|(_, _, radiance)| radiance).collect();
+    (radiances, *renderer.tally())
+}
+
+struct SameBits(usize);
+
+impl<A: Arithmetic> Tailored<A> for SameBits {
+    fn scene<const USES: u64>(
+        &mut self,
+        name: &str,
+        scene: &'static Scene<'static, A, USES>,
+        camera: &'static Camera<A>,
+    ) {
+        let (here, counts) = picture(scene, camera);
+        let (there, all) = picture(&Scene::checked(*scene.parts()), camera);
+        assert!(here == there, "{name} in {}", A::NAME);
+        assert_eq!(counts, all, "{name} in {}", A::NAME);
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn same_bits() {
+    let mut scenes = SameBits(0);
+    fixed::tailored(&mut scenes);
+    single::tailored(&mut scenes);
+    double::tailored(&mut scenes);
+    assert_eq!(scenes.0, 18);
+}
+
+/// Refuses a scene without any one of the bits that it needs, and takes it with more.
+struct Refused;
+
+/// The missing bits if the scene is held to `USES`.
+fn missing<A: Arithmetic, const USES: u64>(
+    scene: &Scene<'static, A, { whitted::scene::uses::ALL }>,
+) -> u64 {
+    match Scene::<'static, A, USES>::try_tailored(*scene.parts()) {
+        Ok(_) => 0,
+        Err(SceneError::Uses { missing }) => missing,
+        Err(other) => panic!("{other}"),
+    }
+}
+
+impl<A: Arithmetic> Tailored<A> for Refused {
+    fn scene<const USES: u64>(
+        &mut self,
+        name: &str,
+        scene: &'static Scene<'static, A, USES>,
+        _: &'static Camera<A>,
+    ) {
+        let all = Scene::checked(*scene.parts());
+        assert_eq!(missing::<A, USES>(&all), 0, "{name}");
+        assert_eq!(missing::<A, 0>(&all), USES, "{name}");
+        assert_eq!(missing::<A, 0x5555_5555_5555_5555>(&all), USES & !0x5555_5555_5555_5555);
+        assert_eq!(missing::<A, 0xaaaa_aaaa_aaaa_aaaa>(&all), USES & !0xaaaa_aaaa_aaaa_aaaa);
+    }
+}
+
+#[test]
+fn a_scene_that_uses_more_than_its_type_says_is_refused() {
+    fixed::tailored(&mut Refused);
+    single::tailored(&mut Refused);
+    double::tailored(&mut Refused);
+}
