@@ -16,7 +16,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use crate::bake::{Baked, Construct};
+use crate::bake::{Baked, Construct, Thrift};
 use crate::document::{Document, Size};
 use crate::read;
 
@@ -52,7 +52,7 @@ fn bake<A: Construct>(
     let document = read::read(scene).unwrap_or_else(|error| panic!("{error}"));
     watch(scene, &document);
     let size = size.or(document.size).unwrap_or(SIZE);
-    let bytes = Baked::<A>::new(&document)
+    let bytes = Baked::<A>::with(&document, Thrift::Flash)
         .and_then(|baked| make(&baked, size))
         .unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR for build scripts"));

@@ -1,6 +1,7 @@
 //! A scene as one piece of bytes, for flash.
 
 use whitted::blob::{Content, Counts, seal};
+use whitted::gather::Indirect;
 use whitted::scene::Shapes;
 
 use super::{Baked, Construct, specs};
@@ -64,6 +65,7 @@ impl<A: Construct> Baked<A> {
         let without = [
             ("instances of groups", parts.instances.is_empty()),
             ("area lights", parts.area_lights.is_empty()),
+            ("irradiance records", matches!(parts.indirect, Indirect::None)),
         ];
         match without.into_iter().find(|(_, empty)| !empty) {
             None => Ok(()),

@@ -11,6 +11,7 @@ pub use blob::{Flash, parts_of};
 pub use construct::Construct;
 pub use place::Placement;
 use shapes::Shapes;
+pub use shapes::Thrift;
 
 use whitted::blob::CameraSpec;
 use whitted::scene::{Ambient, Background, Camera, Light, Material, Parts, Rules, Scene};
@@ -38,6 +39,14 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// What of it the arithmetic can't hold, with its line.
     pub fn new(document: &Document) -> Result<Self, Flaw> {
+        Self::with(document, Thrift::Time)
+    }
+
+    /// Bakes a document, its octree as large as is wanted.
+    ///
+    /// # Errors
+    /// What of it the arithmetic can't hold, with its line.
+    pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
         let placed = placement.place(document);
         let background = match placed.background {
@@ -46,7 +55,7 @@ impl<A: Construct> Baked<A> {
         };
         let baked = Self {
             placement,
-            shapes: Shapes::new(&placed)?,
+            shapes: Shapes::new(&placed, thrift)?,
             materials: materials(&placed)?,
             lights: lights(&placed)?,
             ambient: A::new_ambient(placed.ambient)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use whitted::math::Fixed;
-use whitted_host::bake::{Baked, Construct, parts_of};
+use whitted_host::bake::{Baked, Construct, Thrift, parts_of};
 use whitted_host::document::{Document, Size};
 use whitted_host::error::Flaw;
 use whitted_host::picture::save;
@@ -74,7 +74,7 @@ fn bake<A: Construct>(
     size: Size,
     source: bool,
 ) -> Result<(Vec<u8>, String), Flaw> {
-    let baked = Baked::<A>::new(document)?;
+    let baked = Baked::<A>::with(document, Thrift::Flash)?;
     let flash = baked.blob(size)?;
     let mut said = String::new();
     for (what, count, bytes) in parts_of::<A>(&flash.counts) {
