@@ -111,8 +111,8 @@ macro_rules! each_list {
 }
 
 impl<A: Arithmetic> Content<'_, A> {
-    /// Writes the blob, piece by piece; the checksum stands 0, for [`seal`].
-    pub fn write(&self, to: &mut dyn FnMut(&[u8])) {
+    /// How many of what the blob will hold.
+    pub fn counts(&self) -> Counts {
         let mut specs = 0;
         self.write_specs(&mut Writer(&mut |bytes| specs += bytes.len()));
         let mut counts = [0; header::LISTS];
@@ -122,25 +122,25 @@ impl<A: Arithmetic> Content<'_, A> {
                 *count = list.len() as u32;
             }
         });
+        Counts {
+            shapes: counts,
+            words: self.tree.map_or(0, |(words, ..)| words.len() as u32),
+            materials: self.materials.len() as u16,
+            lights: self.lights.len() as u16,
+            specs: specs as u32,
+        }
+    }
+
+    /// Writes the blob, piece by piece; the checksum stands 0, for [`seal`].
+    pub fn write(&self, to: &mut dyn FnMut(&[u8])) {
         let (words, cube, step) = self.tree.unwrap_or((&[], header::NO_CUBE, 0));
-        let header = Header {
-            counts: Counts {
-                shapes: counts,
-                words: words.len() as u32,
-                materials: self.materials.len() as u16,
-                lights: self.lights.len() as u16,
-                specs: specs as u32,
-            },
-            cube,
-            step,
-            has_tree: self.tree.is_some(),
-            uses: self.uses,
-        };
+        let counts = self.counts();
+        let header = Header { counts, cube, step, has_tree: self.tree.is_some(), uses: self.uses };
         header.write::<A>(to);
         each_list!(self.shapes, self.planes, list => write_list(list, to));
         write_list(words, to);
         self.write_specs(&mut Writer(to));
-        pad(specs, to);
+        pad(counts.specs as usize, to);
     }
 
     fn write_specs(&self, to: &mut Writer<'_>) {
@@ -359,7 +359,7 @@ for_each_arithmetic! {
                 highlight_cosine: setting.highlight_cosine,
                 transmitters_reflect: setting.transmitters_reflect,
                 lossy: setting.lossy,
-                cutoff: make::weight(setting.cutoff).ok_or(BlobError::Unknown)?,
+                ..Rules::<A>::try_with_cutoff(setting.cutoff).ok_or(BlobError::Unknown)?
             };
             Ok((
                 Ambient::<A>::try_new(setting.ambient).map_err(BlobError::Value)?,

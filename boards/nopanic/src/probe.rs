@@ -257,7 +257,7 @@ macro_rules! arithmetic {
             let (mut materials, mut lights) = (any(materials), any(lights));
             let scene: Scene<'_, $a> = blob.scene(any(&mut materials), any(&mut lights)).ok()?;
             any(scene.parts());
-            let (specs, kinds) = (any([spec]), any([point, spot]));
+            let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
             let content = Content {
                 shapes,
                 planes: any(&planes),

@@ -1,20 +1,23 @@
 //! From a [`Document`] to the core's scene in one of its arithmetics, in memory.
 
+mod blob;
 mod construct;
 mod place;
 mod shapes;
+mod source;
+mod specs;
 
+pub use blob::{Flash, parts_of};
 pub use construct::Construct;
 pub use place::Placement;
 use shapes::Shapes;
+pub use shapes::Thrift;
 
-use whitted::scene::{
-    Ambient, Background, Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
-    PatternSpec, Rules, Scene, Shadow,
-};
+use whitted::blob::CameraSpec;
+use whitted::scene::{Ambient, Background, Camera, Light, Material, Parts, Rules, Scene};
 use whitted::shape::ShapeError;
 
-use crate::document::{self, Document, LightKind, ShadowThrough, Size};
+use crate::document::{self, Document, Size};
 use crate::error::{Flaw, Problem};
 
 /// A scene in an arithmetic, owned.
@@ -36,6 +39,14 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// What of it the arithmetic can't hold, with its line.
     pub fn new(document: &Document) -> Result<Self, Flaw> {
+        Self::with(document, Thrift::Time)
+    }
+
+    /// Bakes a document, its octree as large as is wanted.
+    ///
+    /// # Errors
+    /// What of it the arithmetic can't hold, with its line.
+    pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
         let placed = placement.place(document);
         let background = match placed.background {
@@ -44,7 +55,7 @@ impl<A: Construct> Baked<A> {
         };
         let baked = Self {
             placement,
-            shapes: Shapes::new(&placed)?,
+            shapes: Shapes::new(&placed, thrift)?,
             materials: materials(&placed)?,
             lights: lights(&placed)?,
             ambient: A::new_ambient(placed.ambient)
@@ -72,7 +83,7 @@ impl<A: Construct> Baked<A> {
                 highlight_cosine: rules.highlight_cosine,
                 transmitters_reflect: rules.transmitters_reflect,
                 lossy: rules.lossy_total_reflection,
-                cutoff: A::coefficient(rules.cutoff),
+                ..A::rules_with_cutoff(rules.cutoff)
             },
             ..self.shapes.parts()?
         })
@@ -87,10 +98,8 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The arithmetic can't hold it.
     pub fn camera(&self, size: Size) -> Result<Camera<A>, Flaw> {
-        let camera = &self.placed.camera;
-        let tangent = (camera.edge_angle(size).to_radians() / 2.0).tan();
-        A::new_camera(camera.eye, camera.look_at, camera.up, tangent)
-            .map_err(|error| refused::<A>("the camera", error, None))
+        let CameraSpec { eye, at, up, tangent } = specs::camera(&self.placed.camera, size);
+        A::new_camera(eye, at, up, tangent).map_err(|error| refused::<A>("the camera", error, None))
     }
 
     /// The document's index of the shape that has this number in the core's scene.
@@ -116,33 +125,8 @@ fn refused<A: Construct>(what: &str, error: ShapeError, line: Option<usize>) -> 
 
 fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw> {
     let make = |m: &document::Material| {
-        let refuse = |error| refused::<A>("the material", error, Some(m.line));
-        let pattern = match &m.checker {
-            None => None,
-            Some(checker) => Some(PatternSpec {
-                cell: checker.cell,
-                offset: checker.offset,
-                other: u16::try_from(checker.other).map_err(|_| refuse(ShapeError::Material))?,
-            }),
-        };
-        A::new_material(&MaterialSpec {
-            ambient: m.ambient,
-            diffuse: m.diffuse,
-            specular: m.specular,
-            shininess: m.shininess,
-            reflection: m.reflection,
-            transmission: m.transmission,
-            index_front: m.index_front,
-            index_behind: m.index_behind,
-            emission: m.emission,
-            shadow: match m.shadow {
-                ShadowThrough::Opaque => Shadow::Opaque,
-                ShadowThrough::Filtered => Shadow::Filtered,
-                ShadowThrough::None => Shadow::None,
-            },
-            pattern,
-        })
-        .map_err(refuse)
+        let made = specs::material(m).and_then(|spec| A::new_material(&spec));
+        made.map_err(|error| refused::<A>("the material", error, Some(m.line)))
     };
     let from = |i| document.file_of_material(i);
     let all = document.materials.iter().enumerate();
@@ -150,30 +134,11 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
 }
 
 fn lights<A: Construct>(document: &Document) -> Result<Vec<Light<A>>, Flaw> {
+    let make = |l: &document::Light| {
+        A::new_light(&specs::light(l))
+            .map_err(|error| refused::<A>("the light", error, Some(l.line)))
+    };
     let from = |i| document.file_of_light(i);
     let all = document.lights.iter().enumerate();
-    all.map(|(i, l)| light(l).map_err(|flaw: Flaw| flaw.within(from(i)))).collect()
-}
-
-fn light<A: Construct>(light: &document::Light) -> Result<Light<A>, Flaw> {
-    let weakens = |falloff| match falloff {
-        document::Falloff::None => Falloff::None,
-        document::Falloff::InverseSquare => Falloff::InverseSquare,
-    };
-    let intensity = light.color;
-    let spec = match light.kind {
-        LightKind::Point { position, falloff } => {
-            LightSpec::Point { position, intensity, falloff: weakens(falloff) }
-        }
-        LightKind::Directional { direction } => LightSpec::Directional { direction, intensity },
-        LightKind::Spot { position, direction, inner, outer, falloff } => LightSpec::Spot {
-            position,
-            direction,
-            intensity,
-            falloff: weakens(falloff),
-            cos_inner: inner.to_radians().cos(),
-            cos_outer: outer.to_radians().cos(),
-        },
-    };
-    A::new_light(&spec).map_err(|error| refused::<A>("the light", error, Some(light.line)))
+    all.map(|(i, l)| make(l).map_err(|flaw| flaw.within(from(i)))).collect()
 }
