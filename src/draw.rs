@@ -1,13 +1,15 @@
 //! The picture as an image of embedded-graphics: the one file that knows it.
 
-use crate::frame::{Dither, FrameError, Output, Pixel, Renderer, Sample, Settings};
+use crate::frame::{Dither, FrameError, Output, Passes, Pixel, Progress, Renderer};
 use crate::frame::{Gray1, Gray4, Gray8, Rgb565, Rgb888};
+use crate::frame::{Sample, Settings};
 use crate::math::Arithmetic;
 use crate::scene::{Camera, Scene, uses};
 use crate::tally::Tally;
 use crate::trace::Work;
 use core::cell::Cell;
 use core::marker::PhantomData;
+use core::ops::Range;
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{OriginDimensions, Point, Size};
 use embedded_graphics_core::image::ImageDrawable;
@@ -130,29 +132,70 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: 
         self.renderer.into_inner()
     }
 
+    /// Goes on drawing the picture at `position` from coarse to fine, until it is finished or
+    /// `deadline` says that time is up: see [`Renderer::refine`]. Each block is one
+    /// [`fill_solid`](DrawTarget::fill_solid); what the target doesn't show isn't traced.
+    ///
+    /// # Errors
+    /// Those of the target; the next call begins with the block that couldn't be drawn.
+    pub fn refine<D: DrawTarget<Color = C>>(
+        &self,
+        target: &mut D,
+        position: Point,
+        passes: &mut Passes,
+        deadline: impl FnMut(&T) -> bool,
+    ) -> Result<Progress, D::Error> {
+        let whole = Rectangle::new(Point::zero(), self.size());
+        let (columns, rows) = self.visible(target, &whole, -position);
+        // As in `fill`.
+        let Some(mut renderer) = self.renderer.take() else { return Ok(Progress::Interrupted) };
+        let output = self.output;
+        let result = renderer.refine_area(passes, columns, rows, deadline, |block| {
+            let pixel = output.pixel::<A, C::Pixel>(&block.radiance, block.x, block.y);
+            let corner = Point::new(block.x.into(), block.y.into()) + position;
+            let size = Size::new(block.width.into(), block.height.into());
+            target.fill_solid(&Rectangle::new(corner, size), C::from_pixel(pixel))
+        });
+        self.renderer.set(Some(renderer));
+        result
+    }
+
+    /// The columns and rows of an area of the picture that the target shows, which is drawn moved
+    /// by −`offset`.
+    fn visible<D: DrawTarget<Color = C>>(
+        &self,
+        target: &D,
+        area: &Rectangle,
+        offset: Point,
+    ) -> (Range<u16>, Range<u16>) {
+        let whole = Rectangle::new(Point::zero(), self.size());
+        let shown =
+            Rectangle::new(target.bounding_box().top_left + offset, target.bounding_box().size);
+        let visible = area.intersection(&whole).intersection(&shown);
+        let (x, y) = (visible.top_left.x as u16, visible.top_left.y as u16);
+        let columns = x..x.saturating_add(visible.size.width as u16);
+        (columns, y..y.saturating_add(visible.size.height as u16))
+    }
+
     fn fill<D: DrawTarget<Color = C>>(
         &self,
         target: &mut D,
         area: &Rectangle,
         offset: Point,
     ) -> Result<(), D::Error> {
-        let whole = Rectangle::new(Point::zero(), self.size());
-        let shown =
-            Rectangle::new(target.bounding_box().top_left + offset, target.bounding_box().size);
-        let visible = area.intersection(&whole).intersection(&shown);
-        if visible.is_zero_sized() {
+        let (columns, rows) = self.visible(target, area, offset);
+        if columns.is_empty() || rows.is_empty() {
             return Ok(());
         }
         // Nothing that draws can be called while this one draws: the renderer is there.
         let Some(mut renderer) = self.renderer.take() else { return Ok(()) };
-        let (x, y) = (visible.top_left.x as u16, visible.top_left.y as u16);
-        let columns = x..x.saturating_add(visible.size.width as u16);
-        let rows = y..y.saturating_add(visible.size.height as u16);
+        let corner = Point::new(columns.start.into(), rows.start.into());
+        let size = Size::new(columns.len() as u32, rows.len() as u32);
         let output = self.output;
         let colors = renderer
             .scan(columns, rows)
             .map(|(x, y, radiance)| C::from_pixel(output.pixel::<A, C::Pixel>(&radiance, x, y)));
-        let place = Rectangle::new(visible.top_left - offset, visible.size);
+        let place = Rectangle::new(corner - offset, size);
         let result = target.fill_contiguous(&place, colors);
         self.renderer.set(Some(renderer));
         result

@@ -187,7 +187,7 @@ macro_rules! arithmetic {
                         discs: &kinds.discs,
                         cylinders: &kinds.cylinders,
                         cones: &kinds.cones,
-                        tree: None,
+                        ..Shapes::EMPTY
                     },
                     planes: &kinds.planes,
                     tree: Some((&kinds.words, kinds.cube, STEP)),

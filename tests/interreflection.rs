@@ -4,6 +4,7 @@ mod common;
 
 use whitted::frame::{Renderer, Settings};
 use whitted::gather::{Draft, FillError, Gatherer, Gathering, GatheringSpec, Indirect, Record};
+use whitted::gather::{VirtualLight, VirtualLights, VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::scene::{Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, Scene};
 use whitted::shape::Plane;
@@ -223,6 +224,36 @@ macro_rules! cached_box {
 cached_box!(a_box_with_a_bright_wall_in_fixed, Fixed);
 cached_box!(a_box_with_a_bright_wall_in_f32, f32);
 cached_box!(a_box_with_a_bright_wall_in_f64, f64);
+
+macro_rules! box_by_virtual_lights {
+    ($name:ident, $a:ty) => {
+        #[test]
+        fn $name() {
+            scene!($a, scene, camera);
+            let settings = VirtualLightsSettings::<$a>::new(VirtualLightsSpec {
+                bounces: BOUNCES,
+                tile: 2,
+                ..VirtualLightsSpec::DEFAULT
+            });
+            let mut pool = vec![VirtualLight::<$a>::NONE; 512];
+            let mut work = Work::<$a, 5>::new();
+            let lights = VirtualLights::lay(&scene, &settings, &mut pool, &mut work, &mut ());
+            let lit = scene.with_indirect(Indirect::VirtualLights(lights)).expect("uses");
+            let without = picture!($a, &scene, &camera);
+            let with = picture!($a, &lit, &camera);
+            let truth = truth(BOUNCES.into(), 1500);
+            let (w, h) = (usize::from(WIDTH), usize::from(HEIGHT));
+            let third = |x, n| (n / 3..2 * n / 3).contains(&x);
+            let middle = compare(&with, &without, &truth, |x, y| third(x, w) && third(y, h));
+            let all = compare(&with, &without, &truth, everywhere);
+            println!("{}: middle {middle:+.4}, everywhere {all:+.4}", <$a>::NAME);
+            assert!(middle.abs() < 0.1, "{middle}");
+        }
+    };
+}
+box_by_virtual_lights!(a_box_by_virtual_lights_in_fixed, Fixed);
+box_by_virtual_lights!(a_box_by_virtual_lights_in_f32, f32);
+box_by_virtual_lights!(a_box_by_virtual_lights_in_f64, f64);
 
 /// Rows in any order, in bands and in halves, give the bits that the whole gives, and a second
 /// filling gives the same records.

@@ -8,7 +8,8 @@ use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::Picture;
-use whitted::frame::{FrameError, Output, Renderer, Rgb565, Sample, Sampling, Settings};
+use whitted::frame::Settings;
+use whitted::frame::{FrameError, Output, Passes, Progress, Renderer, Rgb565, Sample, Sampling};
 use whitted::math::Fixed;
 use whitted::tally::Counts;
 use whitted::trace::Work;
@@ -46,6 +47,20 @@ impl DrawTarget for Screen {
         _: I,
     ) -> Result<(), Self::Error> {
         Err("the picture is drawn by fill_contiguous alone")
+    }
+
+    fn fill_solid(&mut self, area: &Rectangle, color: Self::Color) -> Result<(), Self::Error> {
+        if self.fail_after.is_some_and(|after| after <= self.fills) {
+            return Err("cable");
+        }
+        self.fills += 1;
+        let shown = area.intersection(&self.bounding_box());
+        assert_eq!(shown, *area, "nothing is drawn beyond the screen");
+        for point in area.points() {
+            let index = point.y as usize * self.size.width as usize + point.x as usize;
+            self.pixels[index] = color.into_storage();
+        }
+        Ok(())
     }
 
     fn fill_contiguous<I: IntoIterator<Item = Self::Color>>(
@@ -209,6 +224,48 @@ fn a_sub_image_is_the_same_pixels_at_its_own_place() {
 }
 
 #[test]
+fn from_coarse_to_fine_only_what_shows_is_traced() {
+    let lines = by_lines(Sampling::Center);
+    for (x, y) in [(0, 0), (-15, -10), (10, 5), (-30, 12), (24, 19), (25, 0), (-40, 3)] {
+        let mut work = Work::<Fixed, 5>::new();
+        let counts = Counts::default();
+        let settings = settings(Sampling::Center);
+        let renderer =
+            Renderer::with_tally(&SCENE, &CAMERA, settings, &mut work, &mut [], counts).unwrap();
+        let picture = Picture::<_, eg::Rgb565, 5, _>::from_renderer(renderer, Output::SRGB);
+        let mut screen = Screen::new(25, 20);
+        let mut passes = Passes::new(8).unwrap();
+        let mut calls = 0;
+        // By some rays at a time, and with a cable that fails now and then.
+        loop {
+            calls += 1;
+            screen.fail_after = (calls % 3 == 0).then_some(screen.fills + 7);
+            let deadline = |counts: &Counts| counts.rays() >= 100 * calls;
+            match picture.refine(&mut screen, Point::new(x, y), &mut passes, deadline) {
+                Ok(Progress::Done) => break,
+                Ok(Progress::Interrupted) | Err("cable") => {}
+                Err(other) => panic!("{other}"),
+            }
+        }
+        assert!(passes.is_done());
+        let mut shown = 0;
+        for (i, pixel) in screen.pixels.iter().enumerate() {
+            let (px, py) = (i as i32 % 25 - x, i as i32 / 25 - y);
+            if (0..40).contains(&px) && (0..30).contains(&py) {
+                shown += 1;
+                assert_eq!(*pixel, lines[(py * 40 + px) as usize]);
+            } else {
+                assert_eq!(*pixel, 0xdead);
+            }
+        }
+        let rays = picture.into_renderer().unwrap().tally().primary;
+        // Blocks that reach into view may begin beside it, 50 at most over the three passes; what
+        // failed is traced again.
+        assert!(rays >= shown && rays <= shown + 50 + calls, "{rays} rays for {shown}");
+    }
+}
+
+#[test]
 fn after_an_error_the_next_frame_is_whole() {
     for sampling in ALL {
         let lines = by_lines(sampling);
@@ -248,6 +305,29 @@ fn what_does_not_fit_is_said_when_the_renderer_is_made() {
     assert_eq!(error(cells(8), 0), None);
     assert_eq!(error(cells(0), 0), Some(FrameError::Cells { side: 0 }));
     assert_eq!(error(cells(9), 0), Some(FrameError::Cells { side: 9 }));
+    let sampled = |sampling| Settings { sampling, ..Settings::new(10, 10) };
+    for depth in [0, 4, 255] {
+        let adaptive = sampled(Sampling::Adaptive { depth, threshold: 0 });
+        assert_eq!(error(adaptive, 999), Some(FrameError::Halvings { depth }));
+    }
+    assert_eq!(error(sampled(Sampling::ADAPTIVE), 37), Some(FrameError::Samples { needed: 38 }));
+    for side in [0, 1, 3, 6, 12, 32, 255] {
+        let sparse = sampled(Sampling::Sparse { side, threshold: 0 });
+        assert_eq!(error(sparse, 999), Some(FrameError::Block { side }));
+    }
+    assert_eq!(error(sampled(Sampling::SPARSE), 31), Some(FrameError::Samples { needed: 32 }));
+    assert_eq!(error(sampled(Sampling::SPARSE), 32), None);
+    for side in [0, 3, 129] {
+        assert_eq!(Passes::new(side), Err(FrameError::Pass { side }));
+    }
+    for error in [
+        FrameError::Halvings { depth: 4 },
+        FrameError::Block { side: 3 },
+        FrameError::Pass { side: 3 },
+    ] {
+        let message = error.to_string();
+        assert!(message.contains(" 1 ") || message.contains("2, 4, 8"), "{message}");
+    }
 }
 
 #[test]

@@ -17,6 +17,7 @@ pub mod polygon;
 pub mod pov;
 pub mod read;
 pub mod render;
+pub mod sampling;
 pub mod show;
 pub mod stats;
 pub mod toml;

@@ -1,6 +1,6 @@
 //! What a scene needs of a chip: flash, memory and, roughly, time.
 
-use whitted::scene::Parts;
+use whitted::scene::{Group, Parts};
 use whitted::tally::Counts;
 use whitted::trace::Work;
 
@@ -15,20 +15,40 @@ const TRIAL: u32 = 64;
 /// Bytes of flash that a scene's parts take, each kind by its name; those that there are none of
 /// are left out.
 pub fn flash<A: Construct>(baked: &Baked<A>) -> Result<Vec<(&'static str, usize)>, Flaw> {
-    let scene = baked.scene()?;
-    let parts = scene.parts();
-    macro_rules! sizes {
-        ($($kind:ident $name:literal),*) => {
-            [$(($name, size_of_val(parts.$kind))),*]
-        };
-    }
-    let mut sizes = sizes!(
-        spheres "spheres", triangles "triangles", smooth_triangles "smooth triangles",
-        polygons "polygons", edges "their edges", cuboids "boxes", discs "discs",
-        cylinders "cylinders", cones "cones", planes "planes", instances "instances",
-        materials "materials", lights "lights"
-    )
-    .to_vec();
+    let mut sizes = baked.with_scene(|scene| {
+        let parts = scene.parts();
+        macro_rules! sizes {
+            ($of:expr, $($kind:ident $name:literal),*) => {
+                [$(($name, size_of_val($of.$kind))),*]
+            };
+        }
+        macro_rules! shapes {
+            ($of:expr) => {
+                sizes!(
+                    $of,
+                    spheres "spheres", triangles "triangles", smooth_triangles "smooth triangles",
+                    polygons "polygons", edges "their edges", cuboids "boxes", discs "discs",
+                    cylinders "cylinders", cones "cones", solids "solids", operands "their parts"
+                )
+            };
+        }
+        let mut sizes = shapes!(parts).to_vec();
+        sizes.extend(sizes!(
+            parts,
+            planes "planes", instances "instances", materials "materials", lights "lights"
+        ));
+        // A group once, however often it is placed.
+        let mut groups: Vec<&Group<'_, A>> = Vec::new();
+        for instance in parts.instances {
+            if !groups.iter().any(|known| std::ptr::eq(*known, instance.group())) {
+                groups.push(instance.group());
+            }
+        }
+        let shapes = groups.iter().flat_map(|group| shapes!(group.shapes())).map(|of| of.1);
+        sizes.push(("groups", size_of::<Group<'_, A>>() * groups.len() + shapes.sum::<usize>()));
+        sizes.push(("their octrees", baked.group_tree_words() * size_of::<u32>()));
+        sizes
+    })?;
     sizes.push(("octree", baked.tree().map_or(0, |(words, _)| words * size_of::<u32>())));
     sizes.push(("the rest", size_of::<Parts<'_, A>>()));
     sizes.retain(|&(_, bytes)| bytes > 0);

@@ -13,8 +13,8 @@
 use std::fmt::{self, Write as _};
 
 use crate::document::{
-    Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Material, Point,
-    ShadowThrough, Size, cross, dot, length, normalized, scaled, sub,
+    Background, Body, Camera, Checker, Document, Falloff, Light, LightKind, Made, Material, Point,
+    ShadowThrough, Shape, Size, Solid, cross, dot, length, normalized, scaled, sub,
 };
 
 /// The scene for pictures of a size, whose proportions the camera has.
@@ -74,10 +74,29 @@ fn write(document: &Document, size: Size, out: &mut String) -> fmt::Result {
             writeln!(out, "#declare T{index} = {}", pattern(index, checker))?;
         }
     }
-    for shape in &document.shapes {
-        let Some(material) = document.materials.get(shape.material) else { continue };
+    shapes(&document.shapes, None, document, out)?;
+    for instance in &document.instances {
+        let Some(group) = document.groups.get(instance.group) else { continue };
+        writeln!(out, "union {{")?;
+        shapes(&group.shapes, instance.material, document, out)?;
+        let [x, y, z] = instance.place.columns;
+        let rows = [x, y, z, instance.place.offset].map(|v| v.map(|x| x.to_string()).join(", "));
+        writeln!(out, "matrix <{}> }}", rows.join(", "))?;
+    }
+    Ok(())
+}
+
+/// Shapes with their textures, or all with that of one material.
+fn shapes(
+    shapes: &[Shape],
+    instead: Option<usize>,
+    document: &Document,
+    out: &mut String,
+) -> fmt::Result {
+    for shape in shapes {
+        let index = instead.unwrap_or(shape.material);
+        let Some(material) = document.materials.get(index) else { continue };
         body(&shape.body, out)?;
-        let index = shape.material;
         let ior = material.index_behind / material.index_front;
         let shadow = material.shadow;
         let twin = shadow == ShadowThrough::Opaque && material.transmits();
@@ -209,14 +228,53 @@ fn body(body: &Body, out: &mut String) -> fmt::Result {
             write!(out, "polygon {{ {}", corners.len() + 1)?;
             corners.iter().chain(corners.first()).try_for_each(|c| write!(out, ", {}", V(*c)))
         }
-        Body::Cylinder { base, apex, radius } => {
-            write!(out, "cylinder {{ {}, {}, {} open", V(*base), V(*apex), radius.abs())
+        Body::Cylinder { base, apex, radius, capped } => {
+            let open = if *capped { "" } else { " open" };
+            write!(out, "cylinder {{ {}, {}, {}{open}", V(*base), V(*apex), radius.abs())
         }
-        Body::Cone { base, base_radius, apex, apex_radius } => {
+        Body::Cone { base, base_radius, apex, apex_radius, capped } => {
             let (r, s) = (base_radius.abs(), apex_radius.abs());
-            write!(out, "cone {{ {}, {r}, {}, {s} open", V(*base), V(*apex))
+            let open = if *capped { "" } else { " open" };
+            write!(out, "cone {{ {}, {r}, {}, {s}{open}", V(*base), V(*apex))
+        }
+        Body::Solid(solid) => {
+            write!(out, "union {{ ")?;
+            made(solid, &solid.made, out)
         }
     }
+}
+
+/// What is made of a solid's operands, which have textures of their own.
+fn made(solid: &Solid, what: &Made, out: &mut String) -> fmt::Result {
+    let (word, parts) = match what {
+        Made::Of(index) => {
+            let Some(operand) = solid.operands.get(*index) else { return Ok(()) };
+            match &operand.body {
+                Body::Cylinder { base, apex, radius, .. } => body(
+                    &Body::Cylinder { base: *base, apex: *apex, radius: *radius, capped: true },
+                    out,
+                )?,
+                Body::Cone { base, base_radius, apex, apex_radius, .. } => body(
+                    &Body::Cone {
+                        base: *base,
+                        base_radius: *base_radius,
+                        apex: *apex,
+                        apex_radius: *apex_radius,
+                        capped: true,
+                    },
+                    out,
+                )?,
+                other => body(other, out)?,
+            }
+            return write!(out, " texture {{ T{} }} }} ", operand.material);
+        }
+        Made::Union(parts) => ("merge", parts),
+        Made::Intersection(parts) => ("intersection", parts),
+        Made::Difference(parts) => ("difference", parts),
+    };
+    write!(out, "{word} {{ ")?;
+    parts.iter().try_for_each(|part| made(solid, part, out))?;
+    write!(out, "}} ")
 }
 
 #[cfg(test)]

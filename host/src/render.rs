@@ -1,11 +1,13 @@
 //! Pictures of a baked scene.
 
 mod bands;
+mod deadline;
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
-pub use whitted::frame::Sampling;
+pub use deadline::{Shown, render_until};
+pub use whitted::frame::{Progress, Sampling};
 use whitted::frame::{Renderer, Sample};
 use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;
@@ -65,21 +67,29 @@ pub struct Rendered {
 pub fn render<A: Construct>(
     baked: &Baked<A>,
     settings: &Settings,
+    progress: impl FnMut(u32),
+) -> Result<Rendered, Flaw> {
+    let camera = baked.camera(settings.size)?;
+    baked.with_scene(|scene| render_scene(scene, &camera, settings, progress))?
+}
+
+fn render_scene<A: Construct>(
+    scene: &Scene<'_, A>,
+    camera: &Camera<A>,
+    settings: &Settings,
     mut progress: impl FnMut(u32),
 ) -> Result<Rendered, Flaw> {
     let start = Instant::now();
-    let scene = baked.scene()?;
-    let camera = baked.camera(settings.size)?;
     let core = settings.for_core();
     let mut picture = Picture::new(settings.size);
     let counts = if let Some(show) = settings.show {
-        with_renderer(&scene, &camera, core, |renderer| {
-            let tracer = Tracer::new(&scene, settings.depth);
+        with_renderer(scene, camera, core, |renderer| {
+            let tracer = Tracer::new(scene, settings.depth);
             show::paint(renderer, &tracer, show, &mut picture, &mut progress);
             *renderer.tally()
         })?
     } else {
-        bands::paint(&scene, &camera, core, settings.threads, &mut picture, &mut progress)?
+        bands::paint(scene, camera, core, settings.threads, &mut picture, &mut progress)?
     };
     Ok(Rendered { picture, counts, time: start.elapsed() })
 }

@@ -71,24 +71,23 @@ pub fn tree<A: Construct>(
     depth: u8,
     (x, y): (u32, u32),
 ) -> Result<Tree, Flaw> {
-    let scene = baked.scene()?;
     let view = View::new(&baked.camera(size)?, size.width as u16, size.height as u16);
     let row = view.row(y as u16, 128);
     let ray = view.ray(&row, x as u16, 128);
     let mut tree = Tree::default();
     let mut work = Work::<A, MAX_DEPTH>::new();
-    let tracer = Tracer::new(&scene, depth).with_key(row.key(x as u16, 128));
-    tree.sum = radiance::<A>(&tracer.radiance(ray, &mut work, &mut tree));
+    let sum = baked.with_scene(|scene| {
+        let tracer = Tracer::new(scene, depth).with_key(row.key(x as u16, 128));
+        tracer.radiance(ray, &mut work, &mut tree)
+    })?;
+    tree.sum = radiance::<A>(&sum);
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };
         *distance /= baked.placement.scale();
-        let id = *shape;
-        let origin = baked.origin(*shape).and_then(|i| baked.document().shapes.get(i));
-        let name = origin.map(|shape| {
+        let name = baked.origin(*shape).map(|(shape, file)| {
             let material = baked.document().materials.get(shape.material);
             let name = material.map_or("", |m| &m.name);
             let of = if name.is_empty() { String::new() } else { format!(" of \"{name}\"") };
-            let file = baked.origin(id).and_then(|i| baked.document().file_of_shape(i));
             let file = file.map_or(String::new(), |file| format!("{}, ", file.display()));
             format!("{}{of}, {file}line {}", shape.body.name(), shape.line)
         });

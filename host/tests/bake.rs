@@ -44,7 +44,7 @@ fn baked(file: &Path) -> (usize, usize) {
     let camera = blob.camera().unwrap();
     // The picture doesn't depend on the tree.
     let host = Baked::<Fixed>::new(&document).unwrap();
-    let wanted = render(&host.scene().unwrap(), &host.camera(SIZE).unwrap());
+    let wanted = host.with_scene(|scene| render(scene, &host.camera(SIZE).unwrap())).unwrap();
     assert!(render(&scene, &camera) == wanted);
     (bytes.len(), document.shapes.len())
 }

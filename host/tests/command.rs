@@ -47,6 +47,47 @@ fn every_scene_of_ours_renders_in_every_arithmetic() {
 }
 
 #[test]
+fn a_deadline_leaves_what_the_screen_shows_then() {
+    let place = tempfile::tempdir().unwrap();
+    let render = |more: &[&str]| {
+        let scene = scene("limit");
+        let arguments = [&["render", &scene, "--size", "40x32", "-o", "x.png"], more].concat();
+        let output = whitted(place.path(), &arguments);
+        assert_eq!(errors(&output), "");
+        (said(&output), std::fs::read(place.path().join("x.png")).unwrap())
+    };
+    let (_, plain) = render(&[]);
+    let (said, shown) = render(&["--deadline", "0"]);
+    assert!(said.contains("the deadline came in the pass of 16x16 blocks\n"), "{said}");
+    assert!(shown != plain);
+    let (said, shown) = render(&["--deadline", "1500"]);
+    assert!(said.contains("the deadline came in the pass of 1x1 blocks\n"), "{said}");
+    assert!(shown != plain);
+    let (said, shown) = render(&["--deadline", "100000"]);
+    assert!(said.contains("the picture is finished\n"), "{said}");
+    assert!(shown == plain, "the last pass leaves the plain picture");
+    let (_, plain) = render(&["--sampling", "sparse"]);
+    let (_, shown) = render(&["--sampling", "sparse", "--deadline", "100000"]);
+    assert!(shown == plain);
+}
+
+#[test]
+fn a_scene_can_say_how_it_is_sampled() {
+    let place = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(scene("limit")).unwrap();
+    let text = text.replace("depth = 4", "depth = 4\nsampling = \"adaptive:2\"");
+    std::fs::write(place.path().join("x.toml"), text).unwrap();
+    let render = |more: &[&str]| {
+        let all = [&["-q", "render", "x.toml", "--size", "24x16", "-o", "-"], more].concat();
+        let output = whitted(place.path(), &all);
+        assert_eq!(errors(&output), "");
+        output.stdout
+    };
+    assert!(render(&[]) == render(&["--sampling", "adaptive:2"]));
+    assert!(render(&[]) != render(&["--sampling", "center"]));
+}
+
+#[test]
 fn stats_say_what_it_took() {
     let place = tempfile::tempdir().unwrap();
     let scene = scene("shapes");
@@ -126,6 +167,13 @@ fn wrong_options() {
         (&["render", "x.toml", "--size", "99999999x4"], "write WxH"),
         (&["render", "x.toml", "--size", "axb"], "write WxH"),
         (&["render", "x.toml", "--depth", "0"], "0 is not in 1..=64"),
+        (&["render", "x.toml", "--sampling", "grid:9"], "isn't a number of cells each way, 1 to 8"),
+        (&["render", "x.toml", "--sampling", "sparse:5"], "isn't a block's side, 2, 4, 8 or 16"),
+        (&["render", "x.toml", "--sampling", "adaptive:9"], "isn't a number of halvings, 1 to 3"),
+        (&["render", "x.toml", "--sampling", "adaptive:2:256"], "isn't a threshold on 8-bit sRGB"),
+        (&["render", "x.toml", "--sampling", "some"], "it is center, corners, grid:N"),
+        (&["render", "x.toml", "--deadline", "soon"], "invalid digit"),
+        (&["render", "x.toml", "--deadline", "9", "--show", "rays"], "cannot be used with"),
         (&["render", "x.toml", "--arith", "f16"], "possible values: fixed, f32, f64"),
         (&["paint"], "unrecognized subcommand"),
     ] {

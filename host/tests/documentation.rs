@@ -7,6 +7,8 @@ const PAGE: &str = include_str!("../../docs/scene-format.md");
 
 const SMALLEST: &str = "[camera]\neye = [0, 1, -5]\nlook_at = [0, 0, 0]\n";
 const SPHERE: &str = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+const BALL: &str = "sphere = { center = [0, 0, 0], radius = 1 }";
+const GROUP: &str = "[[group]]\nname = \"g\"\n[[group.sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
 const MATERIAL: &str = "[[material]]\nname = \"a\"\n";
 
 /// The keys that the reader lists where it finds one that it doesn't know.
@@ -44,6 +46,10 @@ fn every_key_is_documented() {
         format!("mesh = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
         format!("include = [{{ file = \"\", zzz = 1 }}]\n{SMALLEST}"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}[[zzz]]\n"),
+        format!("{SMALLEST}{MATERIAL}[[solid]]\nunion = [{{ {BALL}, zzz = 1 }}]\n"),
+        format!("{SMALLEST}{MATERIAL}[[solid]]\nunion = [{{ {BALL} }}]\nzzz = 1\n"),
+        format!("{SMALLEST}{MATERIAL}[[group]]\nname = \"g\"\n[[group.zzz]]\n"),
+        format!("{SMALLEST}{MATERIAL}{GROUP}[[instance]]\ngroup = \"g\"\nzzz = 1\n"),
     ];
     for table in tables {
         for key in known(&table) {

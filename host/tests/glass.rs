@@ -74,14 +74,18 @@ impl Tally for Transmitted {
 fn follows(start: Way, path: &[Way]) {
     let document = parse(Format::Toml, SCENE).expect("the scene is right");
     let baked = Baked::<f64>::new(&document).expect("f64 holds it");
-    let scene = baked.scene().expect("it is whole");
     let ray = Ray {
         origin: [start.at[0], start.at[1], 0.0],
         direction: [start.angle.cos(), start.angle.sin(), 0.0],
         leaving: Leaving::NOTHING,
     };
     let mut sent = Transmitted::default();
-    Tracer::new(&scene, document.rules.depth).radiance(ray, &mut Work::<f64, 64>::new(), &mut sent);
+    let depth = document.rules.depth;
+    let mut work = Work::<f64, 64>::new();
+    let seen = baked.with_scene(|scene| {
+        Tracer::new(scene, depth).radiance(ray, &mut work, &mut sent);
+    });
+    seen.expect("it is whole");
     for (way, wanted) in path.iter().zip(2u8..) {
         let right = sent.0.iter().any(|&(depth, origin, direction)| {
             let [x, y] = way.at;

@@ -72,6 +72,52 @@ const TOML: &[(&str, &str)] = &[
     ("radius = 2", ":9: duplicate key"),
     ("colour = 1", ":9: unknown key \"colour\"; known: material, center, radius"),
     ("[[sphere]]\ncenter = [0, 0, 0]", ":9: key \"radius\" of this sphere is missing"),
+    ("[[solid]]", ":9: \"union\", \"intersection\" or \"difference\" of this solid is missing"),
+    ("[[solid]]\nunion = []", ":10: found an empty list for \"union\"; a part or more"),
+    ("[[solid]]\nunion = 1", ":10: found 1 for \"union\"; a list of parts"),
+    ("[[solid]]\nunion = [{ }]", ":10: shape (sphere, box, cylinder, cone, plane, union"),
+    ("[[solid]]\nunion = [{ disc = 1 }]", ":10: shape (sphere, box, cylinder, cone, plane, union"),
+    ("[[solid]]\nunion = [{ sphere = { radius = 1 } }]", ":10: key \"center\" of this sphere"),
+    (
+        "[[solid]]\nunion = [{ sphere = { center = [0, 0, 0], radius = 1, caps = 1 } }]",
+        ":10: unknown key \"caps\"",
+    ),
+    (
+        "[[solid]]\nunion = [{ box = { min = [0, 0, 0], max = [0, 1, 1] } }]",
+        ":10: box: its min must lie below its max",
+    ),
+    (
+        "[[solid]]\nunion = [{ plane = { point = [0, 0, 0], normal = [0, 1, 0] } }]",
+        ":9: solid: it has no end: a shape that ends must hold it together",
+    ),
+    (
+        "[[solid]]\nunion = [{ sphere = { center = [0, 0, 0], radius = 1 } }]\nintersection = []",
+        ":11: intersection: it stands beside another way to combine",
+    ),
+    (
+        "[[solid]]\nunion = [{ sphere = { center = [0, 0, 0], radius = 1 }, material = \"x\" }]",
+        ":10: unknown material \"x\"; known: red",
+    ),
+    (
+        "[[solid]]\nrotate = [0, 45, 0]\nunion = [{ box = { min = [0, 0, 0], max = [1, 1, 1] } }]",
+        ":9: solid: a box within a solid stays along the axes",
+    ),
+    (
+        "[[solid]]\nintersection = [{ sphere = { center = [0, 0, 0], radius = 1 } }, \
+         { sphere = { center = [9, 0, 0], radius = 1 } }]",
+        ":9: solid can't be represented: a solid needs one to eight operands, an inside",
+    ),
+    ("[[cylinder]]\nbase = [0, 0, 0]\napex = [0, 1, 0]\nradius = 1\ncaps = 1", ":13: found 1 for"),
+    ("[[group]]\nname = \"g\"", ":9: a shape ([[group.sphere]], …) of this group is missing"),
+    ("[[group]]\n[[group.disc]]", ":9: key \"name\" of this group is missing"),
+    ("[[group]]\nname = \"g\"\nsphere = 1", ":11: found 1 for \"sphere\"; a list of tables"),
+    ("[[group]]\nname = \"g\"\nfoo = 1", ":11: unknown key \"foo\"; known: name, sphere"),
+    (
+        "[[group]]\nname = \"g\"\n[[group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]",
+        ":11: plane: it has no end, and a group must have one",
+    ),
+    ("[[instance]]\ngroup = \"h\"", ":10: unknown group \"h\""),
+    ("[[instance]]\nmove = [0, 0, 0]", ":9: key \"group\" of this instance is missing"),
     ("[[sphere]]\ncenter = [0, 0]\nradius = 1", ":10: found a list of 2 for \"center\"; [x, y, z]"),
     ("[[sphere]]\ncenter = [0, 0, 0]\nradius = -1", ":11: radius -1 is out of range: it must be"),
     ("[[sphere]]\ncenter = [0, nan, 0]\nradius = 1", ":10: found nan for \"center\"; a finite"),
@@ -120,6 +166,15 @@ const TOML: &[(&str, &str)] = &[
     ("[render]\nsize = 100", ":10: found 100 for \"size\"; [width, height] should be here"),
     ("[render]\ndepth = 0", ":10: depth 0 is out of range: it must be 1 to 64"),
     ("[render]\ndepth = 2.5", ":10: depth 2.5 is out of range: it must be a whole number"),
+    ("[render]\nsampling = 4", ":10: found 4 for \"sampling\"; a text in quotes should be here"),
+    (
+        "[render]\nsampling = \"fine\"",
+        ":10: sampling: \"fine\" isn't a sampling: it is center, cor",
+    ),
+    (
+        "[render]\nsampling = \"grid:9\"",
+        ":10: sampling: \"9\" isn't a number of cells each way, 1 to 8",
+    ),
     ("[render]\nspecular_cosine = 1", ":10: found 1 for \"specular_cosine\"; true or false"),
     ("[background]\nbottom = 1", ":9: either \"color\", or both \"bottom\" and \"top\""),
     ("[camera]\neye = [0, 0, 0]", ":9: duplicate key"),

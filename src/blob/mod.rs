@@ -247,7 +247,7 @@ for_each_arithmetic! {
                 discs: list::<Disc<A>>(from, g, index)?,
                 cylinders: list::<Cylinder<A>>(from, h, index)?,
                 cones: list::<Cone<A>>(from, i, index)?,
-                tree: None,
+                ..Shapes::EMPTY
             };
             let planes = list::<Plane<A>>(from, j, index)?;
             let words = list::<u32>(from, header.counts.words, index)?;
@@ -313,6 +313,7 @@ for_each_arithmetic! {
                 cylinders,
                 cones,
                 tree,
+                ..
             } = self.shapes;
             Scene::<A, USES>::try_tailored(Parts {
                 spheres,

@@ -19,7 +19,7 @@ pub enum FrameError {
         /// How many each way were asked for.
         side: u8,
     },
-    /// Adaptive sampling halves a pixel 1 to 4 times.
+    /// Adaptive sampling halves a pixel 1 to 3 times.
     Halvings {
         /// How often was asked for.
         depth: u8,
@@ -55,7 +55,7 @@ impl fmt::Display for FrameError {
                 write!(f, "a pixel can be cut into 1 to 8 cells each way, not {side}")
             }
             Self::Halvings { depth } => {
-                write!(f, "adaptive sampling halves a pixel 1 to 4 times, not {depth}")
+                write!(f, "adaptive sampling halves a pixel 1 to 3 times, not {depth}")
             }
             Self::Block { side } => {
                 write!(f, "a block of sparse sampling has a side of 2, 4, 8 or 16, not {side}")

@@ -5,6 +5,7 @@
 //! through [`Picture`](crate::Picture), whatever embedded-graphics draws on. Or the picture comes
 //! from coarse to fine, in blocks, as far as a deadline lets it ([`Renderer::refine`]).
 
+mod adaptive;
 mod band;
 mod corners;
 mod error;

@@ -119,9 +119,6 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         // A row of the last pass that was left in its middle begins anew there.
         let mut begin = passes.x.max(columns.start);
         while !passes.done {
-            if deadline(&self.tally) {
-                return Ok(Progress::Interrupted);
-            }
             let side = u16::from(passes.side.max(1));
             let start = |from: u16| from & !(side - 1);
             passes.x = passes.x.max(start(columns.start));
@@ -129,6 +126,9 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             let (x, y) = (passes.x, passes.y);
             // Pixels of earlier passes are skipped.
             if passes.first || passes.side == 0 || (x | y) & (side * 2 - 1) != 0 {
+                if deadline(&self.tally) {
+                    return Ok(Progress::Interrupted);
+                }
                 let radiance = if passes.side == 0 {
                     self.sampled(x, y, (begin, columns.end))
                 } else {

@@ -39,6 +39,11 @@ pub struct Renderer<
     /// What the sampling remembers, if it does.
     samples: &'a mut [Sample<A>],
     pub(super) remembered: Option<Remembered>,
+    /// Of sparse sampling: for which pair of rows the middles of the smallest blocks are remembered.
+    pub(super) middles: Option<Remembered>,
+    /// Of adaptive sampling: whether the pixel's corners differ, from the pixel to the right (bit 0) to
+    /// the one to the left (bit 2).
+    pub(super) flags: u8,
     pub(super) tally: T,
 }
 
@@ -99,6 +104,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             work,
             samples,
             remembered: None,
+            middles: None,
+            flags: 0,
             tally,
         })
     }
@@ -169,15 +176,23 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
         }
+        if has(USES, uses::VIRTUAL_LIGHTS) {
+            self.tracer.set_turn(row.in_tile(x));
+        }
         self.radiance(&ray)
     }
 
-    /// The same as a sample.
-    #[inline(always)]
-    pub(super) fn sample(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Sample<A> {
-        let ray = self.view.ray(row, x, fraction);
+    /// What the ray finds that is so many 1/256 of a pixel right of and below the upper left corner
+    /// of the pixel at (x, y).
+    #[inline(never)]
+    pub(super) fn sample(&mut self, x: u16, right: u8, y: u16, down: u8) -> Sample<A> {
+        let row = self.view.row(y, down);
+        let ray = self.view.ray(&row, x, right);
         if uses::has_random(USES) {
-            self.tracer.set_key(row.key(x, fraction));
+            self.tracer.set_key(row.key(x, right));
+        }
+        if has(USES, uses::VIRTUAL_LIGHTS) {
+            self.tracer.set_turn(row.in_tile(x));
         }
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);

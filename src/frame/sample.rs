@@ -2,7 +2,7 @@
 //!
 //! Two samples differ if their colours do by more than a threshold, on 8-bit sRGB, or if the rays
 //! met different objects, or the same with other lights in shadow. Object and shadows are kept as
-//! a signature of eight bits. It is made by a tally that stands before the user's, so that the
+//! a signature of seven bits. It is made by a tally that stands before the user's, so that the
 //! tracer knows nothing of it.
 
 use super::{Output, Rgb888};
@@ -15,9 +15,12 @@ use crate::tally::{RayKind, Tally, Term};
 pub struct Sample<A: Arithmetic> {
     pub(super) radiance: Rgb<A::Radiance>,
     srgb: [u8; 3],
-    /// 0 where no ray has been sent.
+    /// Seven bits, 0 where no ray has been sent, and the mark.
     signature: u8,
 }
+
+/// The bit of the signature that is a sampler's to set.
+const MARK: u8 = 0x80;
 
 impl<A: Arithmetic> Sample<A> {
     /// No ray yet: what memory for samples is filled with.
@@ -27,6 +30,7 @@ impl<A: Arithmetic> Sample<A> {
     #[inline(always)]
     pub(super) fn new(radiance: Rgb<A::Radiance>, signature: u8) -> Self {
         let Rgb888(srgb) = Output::SRGB.pixel::<A, Rgb888>(&radiance, 0, 0);
+        let signature = signature & !MARK;
         Self { radiance, srgb, signature: if signature == 0 { 1 } else { signature } }
     }
 
@@ -39,7 +43,19 @@ impl<A: Arithmetic> Sample<A> {
     /// Whether a ray has been sent.
     #[inline(always)]
     pub(super) fn is_known(&self) -> bool {
-        self.signature != 0
+        self.signature & !MARK != 0
+    }
+
+    /// Whether a sampler has marked it.
+    #[inline(always)]
+    pub(super) fn is_marked(&self) -> bool {
+        self.signature & MARK != 0
+    }
+
+    /// The same, marked.
+    #[inline(always)]
+    pub(super) fn marked(self) -> Self {
+        Self { signature: self.signature | MARK, ..self }
     }
 }
 
@@ -49,22 +65,32 @@ impl<A: Arithmetic> Default for Sample<A> {
     }
 }
 
-/// Whether any two of four samples differ.
+/// Whether the colours of any two samples differ.
 #[inline(always)]
-pub(super) fn differ<A: Arithmetic>(samples: &[Sample<A>; 4], threshold: u8) -> bool {
-    let [a, b, c, d] = samples;
-    let signature = a.signature;
-    if b.signature != signature || c.signature != signature || d.signature != signature {
-        return true;
+pub(super) fn differ_in_color<A: Arithmetic, const N: usize>(
+    samples: &[Sample<A>; N],
+    threshold: u8,
+) -> bool {
+    let (mut low, mut high) = ([u8::MAX; 3], [0; 3]);
+    for sample in samples {
+        for i in 0..3 {
+            let value = sample.srgb[i];
+            low[i] = if value < low[i] { value } else { low[i] };
+            high[i] = if value > high[i] { value } else { high[i] };
+        }
     }
-    let apart = |i: usize| {
-        let (a, b, c, d) = (a.srgb[i], b.srgb[i], c.srgb[i], d.srgb[i]);
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        let (low, high) = (if c < low { c } else { low }, if c > high { c } else { high });
-        let (low, high) = (if d < low { d } else { low }, if d > high { d } else { high });
-        high - low > threshold
-    };
-    apart(0) || apart(1) || apart(2)
+    (0..3).any(|i| high[i].wrapping_sub(low[i]) > threshold)
+}
+
+/// Whether any two samples differ.
+#[inline(always)]
+pub(super) fn differ<A: Arithmetic, const N: usize>(
+    samples: &[Sample<A>; N],
+    threshold: u8,
+) -> bool {
+    let mut signatures = samples.iter().map(|sample| sample.signature & !MARK);
+    let first = signatures.next();
+    signatures.any(|signature| Some(signature) != first) || differ_in_color(samples, threshold)
 }
 
 /// Makes a signature out of what the tracer reports, and hands all of it on.
@@ -89,7 +115,7 @@ impl<T: Tally> Tally for Watch<'_, T> {
     #[inline(always)]
     fn hit<A: Arithmetic>(&mut self, kind: RayKind, shape: u32, distance: A::Length) {
         if kind == RayKind::Primary {
-            // An odd factor keeps shapes apart whose numbers differ by less than 256.
+            // An odd factor keeps shapes apart whose numbers differ by less than 128.
             self.signature = (shape as u8).wrapping_add(1).wrapping_mul(0x9d);
         }
         self.tally.hit::<A>(kind, shape, distance);
@@ -103,7 +129,7 @@ impl<T: Tally> Tally for Watch<'_, T> {
     #[inline(always)]
     fn shadowed(&mut self, light: u16, depth: u8) {
         if depth == 1 {
-            self.signature ^= 0x35u8.rotate_left(u32::from(light));
+            self.signature ^= (light as u8).wrapping_add(1).wrapping_mul(0x2b);
         }
         self.tally.shadowed(light, depth);
     }
@@ -154,10 +180,10 @@ mod tests {
             if deeper {
                 watch.shadowed(0, 2);
             }
-            watch.signature
+            watch.signature & !MARK
         };
-        assert!((1..256).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
-        assert!((0..8).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
+        assert!((1..128).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
+        assert!((0..127).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
         assert!(signature(3, &[0, 1], false) != signature(3, &[0], false));
         assert_eq!(signature(3, &[1], true), signature(3, &[1], false));
     }

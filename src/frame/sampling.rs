@@ -28,19 +28,21 @@ pub enum Sampling {
         /// Which of the random pictures.
         seed: u16,
     },
-    /// One through each pixel's corner; where a pixel's four differ in colour, object or shadow it
-    /// is halved both ways, and its quarters likewise (Whitted 1980). Remembers a row of W + 2
-    /// samples and the (2^depth + 1)² of one pixel.
+    /// One through each pixel's corner and one through its centre; where the five differ in colour,
+    /// object or shadow, in the pixel or in the one beside it, the pixel is cut into cells: 2×2, or
+    /// 4×4 and those that differ from their neighbours again. Remembers a row of W + 28 samples.
     Adaptive {
-        /// How often a pixel may be halved, 1 to 4: up to (2^depth + 1)² rays.
+        /// How often a pixel may be halved, 1 to 3: the smallest cells are 2×2, 4×4 or 8×8.
         depth: u8,
-        /// Colours differ if one channel of 8-bit sRGB does by more than this.
+        /// Colours differ if one channel of 8-bit sRGB does by more than this; those of cells if by
+        /// more than half as much again.
         threshold: u8,
     },
     /// One through the centre of every `side`-th pixel of every `side`-th row; where the four
-    /// corners of such a block differ in colour, object or shadow it is halved both ways, down to
-    /// single pixels; the others are interpolated (Akimoto et al., "Pixel-selected ray tracing",
-    /// 1991). Remembers `side`/2 + 1 rows of W/2 + 1 samples, W being rounded up to whole blocks.
+    /// corners of such a block, or of one beside it, differ in colour, object or shadow it is halved
+    /// both ways, down to single pixels; the others are interpolated (after Akimoto et al.,
+    /// "Pixel-selected ray tracing", 1991). Remembers `side`/2 + 2 rows of W/2 + 1 samples and one of
+    /// W/`side` + 1, W being rounded up to whole blocks.
     Sparse {
         /// 2, 4, 8 or 16.
         side: u8,
@@ -51,17 +53,19 @@ pub enum Sampling {
 
 impl Sampling {
     /// Adaptive sampling as it serves most scenes.
-    pub const ADAPTIVE: Self = Self::Adaptive { depth: 3, threshold: 8 };
+    pub const ADAPTIVE: Self = Self::Adaptive { depth: 3, threshold: 14 };
     /// Sparse sampling as it serves most scenes.
-    pub const SPARSE: Self = Self::Sparse { side: 4, threshold: 8 };
+    pub const SPARSE: Self = Self::Sparse { side: 4, threshold: 19 };
 
     /// How many samples the renderer must remember for pictures of this width.
     pub const fn samples(self, width: u16) -> usize {
         match self {
             Self::Center | Self::Grid { .. } | Self::Jittered { .. } => 0,
             Self::Corners => width as usize + 2,
-            Self::Adaptive { depth, .. } => width as usize + 2 + lattice(depth),
-            Self::Sparse { side, .. } => stride(width, side) * (side as usize / 2 + 1),
+            Self::Adaptive { .. } => width as usize + 28,
+            Self::Sparse { side, .. } => {
+                stride(width, side) * (side as usize / 2 + 2) + blocks(width, side) + 1
+            }
         }
     }
 
@@ -84,7 +88,7 @@ impl Sampling {
             Self::Grid { side } | Self::Jittered { side, .. } if side < 1 || side > 8 => {
                 Err(FrameError::Cells { side })
             }
-            Self::Adaptive { depth, .. } if depth < 1 || depth > 4 => {
+            Self::Adaptive { depth, .. } if depth < 1 || depth > 3 => {
                 Err(FrameError::Halvings { depth })
             }
             Self::Sparse { side, .. } if side < 2 || side > 16 || !side.is_power_of_two() => {
@@ -95,17 +99,15 @@ impl Sampling {
     }
 }
 
-/// How many samples the finest lattice of a pixel has.
-pub(super) const fn lattice(depth: u8) -> usize {
-    let points = (1usize << (depth & 7)) + 1;
-    points * points
+/// How many blocks of sparse sampling there are in a row.
+#[inline(always)]
+pub(super) const fn blocks(width: u16, side: u8) -> usize {
+    (width as usize + side as usize).wrapping_sub(1) >> side.trailing_zeros()
 }
 
 /// How many samples a row of sparse sampling has: every other pixel's, and the end of the last
 /// block.
 #[inline(always)]
 pub(super) const fn stride(width: u16, side: u8) -> usize {
-    let shift = side.trailing_zeros();
-    let blocks = (width as usize + side as usize).wrapping_sub(1) >> shift;
-    (blocks << shift) / 2 + 1
+    (blocks(width, side) << side.trailing_zeros()) / 2 + 1
 }

@@ -1,19 +1,23 @@
 //! Sparse sampling: a ray for some pixels, the others interpolated.
 //!
 //! The picture is cut into blocks of side s. Rays go through the centres of the pixels at the
-//! blocks' corners. Where the four differ, five more go through the middles of the sides and of the
-//! block, which makes four blocks of half the side; the pixels of a block whose corners don't differ
-//! are interpolated between them, first down, then across. Beyond the right and the lower edge a block's
+//! blocks' corners. A block is divided where its four differ, or those of a block beside it: what
+//! passes between the corners of one rarely does so of all. Five more rays, through the middles of the
+//! sides and of the block, make four blocks of half the side, and those whose corners differ are
+//! divided again. Of the smallest, of side 2, the middle is traced if the corners differ in colour, and
+//! the pixel between two corners if these or the middle do. What isn't traced is interpolated between
+//! the corners of its block, first down, then across. Beyond the right and the lower edge a block's
 //! corners are the last pixels' samples.
 //!
-//! Blocks of side 2 and more have their corners at even coordinates: only those samples are
-//! remembered, for a row of blocks. A pixel at an odd one that isn't interpolated is traced when it
-//! is asked for. A block's middle is known just if the block was divided, which is how a pixel finds
-//! the block it belongs to.
+//! Blocks have their corners at even coordinates: those samples are remembered for a row of
+//! blocks, the lower edge becoming the next row's upper one. Behind them lie the middles of the
+//! smallest blocks of two rows of pixels, and the corners of the next row of blocks, which say
+//! whether those of this one are to be divided. The mark of a block's upper left corner says that
+//! it is; for smaller ones their middle does, which is known just if they were.
 
 use super::renderer::Remembered;
-use super::sample::differ;
-use super::sampling::stride;
+use super::sample::{differ, differ_in_color};
+use super::sampling::{blocks, stride};
 use super::{Renderer, Sample};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::tally::Tally;
@@ -40,6 +44,41 @@ fn between<A: Arithmetic>(
     low
 }
 
+/// How the memory is laid out.
+#[derive(Clone, Copy)]
+struct Layout {
+    side: u16,
+    /// Samples in a row.
+    stride: usize,
+    /// Blocks in a row.
+    blocks: usize,
+    /// From a block's corner to the next, in a row.
+    step: usize,
+    /// The lower edge.
+    lower: usize,
+    /// The middles of the smallest blocks.
+    middles: usize,
+    /// The corners of the next row of blocks, one after the other.
+    next: usize,
+}
+
+impl Layout {
+    #[inline(always)]
+    fn new(width: u16, side: u8) -> Self {
+        let stride = stride(width, side);
+        let step = usize::from(side >> 1);
+        let lower = step * stride;
+        let (middles, next) = (lower + stride, lower + 2 * stride);
+        Self { side: side.into(), stride, blocks: blocks(width, side), step, lower, middles, next }
+    }
+
+    /// From a sample to that so many pixels right of and below it.
+    #[inline(always)]
+    fn offset(&self, right: u16, down: u16) -> usize {
+        usize::from(down >> 1) * self.stride + usize::from(right >> 1)
+    }
+}
+
 impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     Renderer<'_, A, MAX_DEPTH, T, USES>
 {
@@ -53,84 +92,175 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         side: u8,
         threshold: u8,
     ) -> Rgb<A::Radiance> {
-        let mask = u16::from(side) - 1;
+        let layout = Layout::new(self.settings.width, side);
+        let mask = layout.side - 1;
         if x == columns.0 {
             let wanted = Remembered { y: y & !mask, columns };
             if self.remembered != Some(wanted) {
-                self.fill(wanted, side, threshold);
+                self.fill(wanted, layout, threshold);
+            }
+            let pair = Remembered { y: y & !1, columns };
+            if self.middles != Some(pair) {
+                for i in layout.middles..layout.next {
+                    self.remember(i, Sample::NONE);
+                }
+                self.middles = Some(pair);
             }
         }
-        let stride = stride(self.settings.width, side);
         // Where the pixel lies in the smallest block around it, and where that begins.
-        let (mut right, mut down, mut side) = (x & mask, y & mask, u16::from(side));
-        let place = |x: u16, row: u16| usize::from(row >> 1) * stride + usize::from(x >> 1);
-        let mut corner = place(x - right, 0);
+        let (mut right, mut down, mut side) = (x & mask, y & mask, layout.side);
+        let mut corner = usize::from((x - right) >> 1);
+        let mut divided = self.remembered(corner).is_marked();
         loop {
             let half = side >> 1;
-            let steps = usize::from(half);
-            let corners = [0, steps, steps * stride, steps * stride + steps]
-                .map(|offset| self.remembered(corner + offset));
-            // The middle tells whether the block was divided; the smallest ones have none.
-            let divided = if side > 2 {
-                let middle = corner + place(half, half);
-                self.remembered(middle).is_known()
-            } else {
-                differ(&corners, threshold)
-            };
-            if !divided {
-                let [a, b, c, d] = corners.map(|sample| sample.radiance);
-                let left = between::<A>(a, c, down, side);
-                return between::<A>(left, between::<A>(b, d, down, side), right, side);
-            }
-            if side == 2 {
-                if right | down == 0 {
-                    return corners[0].radiance;
+            if divided && side > 2 {
+                // Into the quarter around the pixel.
+                if right >= half {
+                    right -= half;
+                    corner += layout.offset(half, 0);
                 }
+                if down >= half {
+                    down -= half;
+                    corner += layout.offset(0, half);
+                }
+                side = half;
+                // The smallest have no middle of their own.
+                divided = side == 2
+                    || self.remembered(corner + layout.offset(side >> 1, side >> 1)).is_known();
+                continue;
+            }
+            if right | down == 0 {
+                return self.remembered(corner).radiance;
+            }
+            let corners = [(0, 0), (side, 0), (0, side), (side, side)]
+                .map(|(i, j)| self.remembered(corner + layout.offset(i, j)));
+            let [a, b, c, d] = corners;
+            if !divided || !differ_in_color(&corners, threshold) {
+                let left = between::<A>(a.radiance, c.radiance, down, side);
+                let end = between::<A>(b.radiance, d.radiance, down, side);
+                return between::<A>(left, end, right, side);
+            }
+            let middle = self.middle(x | 1, y | 1, layout);
+            if right & down != 0 {
+                return middle.radiance;
+            }
+            let beside = if right != 0 { b } else { c };
+            if differ_in_color(&[a, beside, middle], threshold) {
                 return self.trace(&self.view.row(y, 128), x, 128);
             }
-            if right >= half {
-                right -= half;
-                corner += place(half, 0);
-            }
-            if down >= half {
-                down -= half;
-                corner += place(0, half);
-            }
-            side = half;
+            return between::<A>(a.radiance, beside.radiance, 1, 2);
         }
     }
 
+    /// The middle of a smallest block, remembered or traced.
+    fn middle(&mut self, x: u16, y: u16, layout: Layout) -> Sample<A> {
+        let place = layout.middles + usize::from(x >> 1);
+        let known = self.remembered(place);
+        if known.is_known() {
+            return known;
+        }
+        let sample = self.pixel(x, y);
+        self.remember(place, sample);
+        sample
+    }
+
+    /// The sample at a pixel's centre; beyond an edge, the last pixel's.
+    fn pixel(&mut self, x: u16, y: u16) -> Sample<A> {
+        let (x, y) = (x.min(self.settings.width - 1), y.min(self.settings.height - 1));
+        self.sample(x, 128, y, 128)
+    }
+
     /// Traces what a row of blocks needs, at even coordinates.
-    fn fill(&mut self, wanted: Remembered, side: u8, threshold: u8) {
-        let stride = stride(self.settings.width, side);
-        let last = usize::from(side >> 1) * stride;
+    fn fill(&mut self, wanted: Remembered, layout: Layout, threshold: u8) {
         let Remembered { y, columns } = wanted;
-        let side = u16::from(side);
-        // The lower edge of the row above is the upper edge of this one.
-        let above = Remembered { y: y.wrapping_sub(side), columns };
-        let follows = self.remembered == Some(above);
-        for i in 0..stride {
-            let edge = if follows { self.remembered(last + i) } else { Sample::NONE };
-            self.remember(i, edge);
+        let side = layout.side;
+        let shift = side.trailing_zeros();
+        let (first, last) =
+            (usize::from(columns.0 >> shift), usize::from((columns.1 - 1) >> shift));
+        // The blocks beside the area count, too.
+        let counting = (first.saturating_sub(1), (last + 1).min(layout.blocks - 1));
+        if y < side || self.remembered != Some(Remembered { y: y - side, columns }) {
+            // From the row of blocks above.
+            let top = y.saturating_sub(side);
+            for i in 0..layout.next + layout.blocks + 1 {
+                self.remember(i, Sample::NONE);
+            }
+            self.middles = None;
+            self.ahead(top, counting, &layout);
+            let mut next = top + side;
+            while next <= y + side {
+                self.advance(next, counting, &layout, threshold);
+                next += side;
+            }
         }
-        for i in stride..stride + last {
-            self.remember(i, Sample::NONE);
-        }
-        let mut x = columns.0 & !(side - 1);
-        while x < columns.1 {
-            self.divide(x, y, side, stride, threshold);
-            x += side;
+        self.advance(y + 2 * side, counting, &layout, threshold);
+        for block in first..=last {
+            if self.remembered(block * layout.step).is_marked() {
+                self.divide(block, y, &layout, threshold);
+            }
         }
         self.remembered = Some(wanted);
     }
 
-    /// Traces the corners of a block and of the blocks in it that are worth dividing.
-    fn divide(&mut self, x: u16, y: u16, whole: u16, stride: usize, threshold: u8) {
-        for (right, down) in [(0, 0), (whole, 0), (0, whole), (whole, whole)] {
-            self.corner(x + right, y, down, stride);
+    /// Traces the corners at y of the row of blocks after the remembered one.
+    fn ahead(&mut self, y: u16, (first, last): (usize, usize), layout: &Layout) {
+        for block in first..=last + 1 {
+            let sample = self.pixel(block as u16 * layout.side, y);
+            self.remember(layout.next + block, sample);
         }
-        let place =
-            |right: u16, down: u16| usize::from(down >> 1) * stride + usize::from((x + right) >> 1);
+    }
+
+    /// Goes to the next row of blocks: its lower edge is that of the corners known ahead; traces
+    /// those at y, and marks which blocks differ, with those around them.
+    fn advance(&mut self, y: u16, counting: (usize, usize), layout: &Layout, threshold: u8) {
+        let Layout { stride, step, lower, next, .. } = *layout;
+        for i in 0..stride {
+            let edge = self.remembered(lower + i);
+            self.remember(i, edge);
+        }
+        for i in stride..lower + stride {
+            self.remember(i, Sample::NONE);
+        }
+        for block in 0..=layout.blocks {
+            let corner = self.remembered(next + block);
+            self.remember(lower + block * step, corner);
+            self.remember(next + block, Sample::NONE);
+        }
+        // Blocks below the picture have nothing to say.
+        if y - layout.side >= self.settings.height {
+            return;
+        }
+        self.ahead(y, counting, layout);
+        let (first, last) = counting;
+        for block in first..=last {
+            let corner = lower + block * step;
+            let corners = [corner, corner + step, next + block, next + block + 1]
+                .map(|place| self.remembered(place));
+            if differ(&corners, threshold) {
+                self.put_mark(block * step);
+                self.put_mark(corner);
+                self.put_mark(next + block);
+                if block > first {
+                    self.put_mark(corner - step);
+                }
+                if block < last {
+                    self.put_mark(corner + step);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn put_mark(&mut self, place: usize) {
+        let marked = self.remembered(place).marked();
+        self.remember(place, marked);
+    }
+
+    /// Traces what divides a block, and the smaller ones in it that are worth it.
+    fn divide(&mut self, block: usize, y: u16, layout: &Layout, threshold: u8) {
+        let whole = layout.side;
+        let x = block as u16 * whole;
+        let corner = block * layout.step;
         let mut side = whole;
         while side > 2 {
             let half = side >> 1;
@@ -139,15 +269,19 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
                 let mut right = 0;
                 while right < whole {
                     // The middle of the block that this is a quarter of.
-                    let middle = place(right & !side | side, down & !side | side);
-                    if side == whole || self.remembered(middle).is_known() {
-                        let four = [(0, 0), (side, 0), (0, side), (side, side)]
-                            .map(|(i, j)| self.remembered(place(right + i, down + j)));
-                        if differ(&four, threshold) {
-                            for (i, j) in
-                                [(half, 0), (0, half), (half, half), (side, half), (half, side)]
-                            {
-                                self.corner(x + right + i, y, down + j, stride);
+                    let middle = corner + layout.offset(right & !side | side, down & !side | side);
+                    let four = [(0, 0), (side, 0), (0, side), (side, side)]
+                        .map(|(i, j)| self.remembered(corner + layout.offset(right + i, down + j)));
+                    if side == whole
+                        || self.remembered(middle).is_known() && differ(&four, threshold)
+                    {
+                        for (i, j) in
+                            [(half, 0), (0, half), (half, half), (side, half), (half, side)]
+                        {
+                            let place = corner + layout.offset(right + i, down + j);
+                            if !self.remembered(place).is_known() {
+                                let sample = self.pixel(x + right + i, y + down + j);
+                                self.remember(place, sample);
                             }
                         }
                     }
@@ -157,17 +291,5 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             }
             side = half;
         }
-    }
-
-    /// Traces the pixel at x of row `y + down`, if it hasn't been; beyond an edge, the last pixel.
-    fn corner(&mut self, x: u16, y: u16, down: u16, stride: usize) {
-        let place = usize::from(down >> 1) * stride + usize::from(x >> 1);
-        if self.remembered(place).is_known() {
-            return;
-        }
-        let row = (y + down).min(self.settings.height - 1);
-        let x = x.min(self.settings.width - 1);
-        let sample = self.sample(&self.view.row(row, 128), x, 128);
-        self.remember(place, sample);
     }
 }

@@ -1,6 +1,7 @@
 use super::fill::Place;
 use super::*;
-use crate::math::Fixed;
+use crate::frame::{Renderer, Settings};
+use crate::math::{Arithmetic, Fixed};
 use crate::scene::{Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Scene};
 use crate::shape::{Leaving, Polygon, Sphere};
 use crate::tally::Counts;
@@ -57,6 +58,55 @@ macro_rules! integrating_sphere {
         }
     };
 }
+
+/// The same sphere with virtual lights, as a camera in it sees its walls.
+macro_rules! virtual_sphere {
+    ($name:ident, $a:ty) => {
+        #[test]
+        fn $name() {
+            let spheres = [Sphere::<$a>::new([0.0; 3], 1.0, 0)];
+            let materials =
+                [Material::<$a>::new(MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK })];
+            let lights = [Light::<$a>::point([0.3, 0.0, 0.0], [1.0; 3])];
+            let scene = Scene::<$a>::new(Parts {
+                spheres: &spheres,
+                materials: &materials,
+                lights: &lights,
+                ..Parts::EMPTY
+            })
+            .expect("a scene");
+            let camera = Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
+            for (bounces, tile, wanted) in [(1, 1, 0.25), (1, 4, 0.25), (4, 1, 0.25 * 1.875)] {
+                let settings = VirtualLightsSettings::<$a>::new(VirtualLightsSpec {
+                    bounces,
+                    tile,
+                    nearest: 0.05,
+                    ..VirtualLightsSpec::DEFAULT
+                });
+                let mut pool = vec![VirtualLight::<$a>::NONE; 1024];
+                let mut work = Work::<$a, 4>::new();
+                let laid = VirtualLights::lay(&scene, &settings, &mut pool, &mut work, &mut ());
+                let lit = scene.with_indirect(Indirect::VirtualLights(laid)).expect("uses");
+                let mut sum = 0.0;
+                for (scene, sign) in [(&lit, 1.0), (&scene, -1.0)] {
+                    let settings = Settings { depth: 1, ..Settings::new(40, 32) };
+                    let mut renderer =
+                        Renderer::new(scene, &camera, settings, &mut work, &mut []).expect("fits");
+                    for (_, _, radiance) in renderer.scan(0..40, 0..32) {
+                        sum += sign * Into::<f64>::into(radiance[0]);
+                    }
+                }
+                let mean = sum / (40.0 * 32.0);
+                std::println!("{} {bounces} {tile}: {mean} for {wanted}", <$a>::NAME);
+                assert!((mean / wanted - 1.0).abs() < 0.01, "{mean}");
+            }
+        }
+    };
+}
+
+virtual_sphere!(virtual_lights_in_fixed, Fixed);
+virtual_sphere!(virtual_lights_in_f32, f32);
+virtual_sphere!(virtual_lights_in_f64, f64);
 
 integrating_sphere!(integrating_sphere_in_fixed, Fixed);
 integrating_sphere!(integrating_sphere_in_f32, f32);

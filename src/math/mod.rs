@@ -151,6 +151,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     const NO_WEIGHT: Self::Weight;
     /// Coefficient 1.
     const FULL: Self::Weight;
+    /// Intensity 0.
+    const NO_INTENSITY: Self::Intensity;
     /// Radiance 0.
     const BLACK: Self::Radiance;
     /// No span.
@@ -318,6 +320,10 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn ratio_q16(a: Self::Length, b: Self::Length) -> u32;
     /// Intensity times the square of an inverse length, saturating at 1024.
     fn falloff(intensity: &Self::Intensity, inverse: &Self::Inverse) -> Self::Radiance;
+    /// `i·w`, for a coefficient of at most 4.
+    fn dim_intensity(i: &Self::Intensity, w: Self::Weight) -> Self::Intensity;
+    /// `i·r²`: the intensity whose irradiance over the distance `r` is `i`.
+    fn spread_intensity(i: &Self::Intensity, r: Self::Length) -> Self::Intensity;
     /// Intensity without falloff.
     fn constant(intensity: &Self::Intensity) -> Self::Radiance;
     /// `floor(x·per)` modulo 2: which cell of a pattern a coordinate lies in.

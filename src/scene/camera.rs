@@ -122,6 +122,12 @@ pub struct Row<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Row<A> {
+    /// The place of a pixel in a tile of 4×4, x in the low two bits.
+    #[inline(always)]
+    pub(crate) fn in_tile(&self, x: u16) -> u8 {
+        (self.place >> 8 & 3) as u8 * 4 + (x & 3) as u8
+    }
+
     /// Another number for each place in the picture: where what is random about a ray comes from.
     #[inline(always)]
     pub fn key(&self, x: u16, fraction: u8) -> u32 {

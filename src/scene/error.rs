@@ -15,6 +15,11 @@ pub enum SceneError {
         /// The polygon's index.
         polygon: u32,
     },
+    /// A solid names operands that aren't there.
+    Operands {
+        /// The solid's index.
+        solid: u32,
+    },
     /// The octree is over another number of shapes than there are besides planes.
     Tree {
         /// The number of shapes that the tree is over.
@@ -42,6 +47,7 @@ impl SceneError {
         match self {
             Self::Material { .. } => "a shape or a pattern names a material that isn't there",
             Self::Edges { .. } => "a polygon names edges that aren't there",
+            Self::Operands { .. } => "a solid names operands that aren't there",
             Self::Tree { .. } => "the octree is over another number of shapes",
             Self::Fan { .. } => "an area light names corners that aren't there",
             Self::Group => "a group has no shapes, or is too large for a bounding sphere",
@@ -59,6 +65,9 @@ impl fmt::Display for SceneError {
             }
             Self::Edges { polygon } => {
                 write!(f, "polygon {polygon} names edges that aren't there")
+            }
+            Self::Operands { solid } => {
+                write!(f, "solid {solid} names operands that aren't there")
             }
             Self::Tree { shapes } => {
                 write!(f, "the octree is over {shapes} shapes, the scene has another number")

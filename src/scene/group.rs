@@ -24,7 +24,7 @@ pub struct Group<'a, A: Arithmetic> {
 macro_rules! each {
     ($shapes:expr, $step:expr, $extent:ident => $one:expr) => {
         each!(@ $shapes, $step, $extent => $one; spheres triangles smooth_triangles polygons
-            cuboids discs cylinders cones)
+            cuboids discs cylinders cones solids)
     };
     (@ $shapes:expr, $step:expr, $extent:ident => $one:expr; $($kind:ident)*) => {
         $(

@@ -59,7 +59,7 @@ pub enum LightSpec {
 pub struct Light<A: Arithmetic> {
     pub(crate) source: Source<A>,
     /// The largest channel's intensity.
-    intensity: A::Intensity,
+    pub(crate) intensity: A::Intensity,
     /// The channels, relative to the largest.
     pub(crate) color: Rgb<A::Weight>,
     pub(crate) falloff: Falloff,
@@ -94,6 +94,23 @@ pub(crate) struct Incident<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Light<A> {
+    /// How much of a spot's light goes where the light is seen in this direction, if not all; `None`
+    /// outside its cone.
+    #[inline(always)]
+    pub(crate) fn fade(&self, direction: &[A::Unit; 3]) -> Option<Option<A::Weight>> {
+        let Source::Spot { axis, cos_outer, width, .. } = &self.source else { return Some(None) };
+        let inside = A::cosine(direction, axis) - *cos_outer;
+        if inside <= A::NO_WEIGHT {
+            return None;
+        }
+        if inside >= *width {
+            return Some(None);
+        }
+        let f = A::quotient(inside, *width);
+        let f2 = A::weight(f, f);
+        Some(Some(f2 + f2 + f2 - A::weight(f2, f + f)))
+    }
+
     /// What the point `p` gets; `None` outside a spot's cone.
     #[inline(always)]
     pub(crate) fn at<const USES: u64>(&self, p: &[A::Length; 3]) -> Option<Incident<A>> {
@@ -116,17 +133,9 @@ impl<A: Arithmetic> Light<A> {
             _ => A::constant(&self.intensity),
         };
         if has(USES, uses::SPOTS)
-            && let Source::Spot { axis, cos_outer, width, .. } = &self.source
+            && let Some(share) = self.fade(&direction)?
         {
-            let inside = A::cosine(&direction, axis) - *cos_outer;
-            if inside <= A::NO_WEIGHT {
-                return None;
-            }
-            if inside < *width {
-                let f = A::quotient(inside, *width);
-                let f2 = A::weight(f, f);
-                irradiance = A::dim(irradiance, f2 + f2 + f2 - A::weight(f2, f + f));
-            }
+            irradiance = A::dim(irradiance, share);
         }
         Some(Incident { direction, distance, irradiance })
     }

@@ -50,13 +50,13 @@ pub(crate) use shapes::with_shape;
 pub use transform::Transform;
 
 pub(crate) use area_light::Form;
-pub(crate) use light::Incident;
+pub(crate) use light::{Incident, Source};
 
 use crate::gather::Indirect;
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
 use crate::octree::Octree;
-use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, PolygonEdge};
-use crate::shape::{SmoothTriangle, Sphere, Triangle};
+use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon};
+use crate::shape::{PolygonEdge, SmoothTriangle, Solid, Sphere, Triangle};
 use uses::has;
 
 /// The ambient irradiance E_amb divided by π, the same in the whole scene.
@@ -145,10 +145,14 @@ pub struct Parts<'a, A: Arithmetic> {
     pub cuboids: &'a [Cuboid<A>],
     /// Discs.
     pub discs: &'a [Disc<A>],
-    /// Open cylinders.
+    /// Cylinders.
     pub cylinders: &'a [Cylinder<A>],
-    /// Open cones.
+    /// Cones.
     pub cones: &'a [Cone<A>],
+    /// Solids of several shapes.
+    pub solids: &'a [Solid<A>],
+    /// The operands of all solids.
+    pub operands: &'a [Operand<A>],
     /// Groups of shapes, placed. They lie outside the octree, each in a bounding sphere: a short
     /// list.
     pub instances: &'a [Instance<'a, A>],
@@ -190,6 +194,8 @@ impl<A: Arithmetic> Parts<'_, A> {
         discs: &[],
         cylinders: &[],
         cones: &[],
+        solids: &[],
+        operands: &[],
         instances: &[],
         planes: &[],
         tree: None,

@@ -3,8 +3,8 @@
 use super::{Parts, SceneError};
 use crate::math::{Arithmetic, for_each_arithmetic};
 use crate::octree::{Extent, Octree};
-use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Polygon, PolygonEdge};
-use crate::shape::{SmoothTriangle, Sphere, Triangle};
+use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Polygon, PolygonEdge};
+use crate::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 
 /// Shapes that have an end, and the tree over them: what rays are searched for in. They are
 /// numbered through in the order of the fields.
@@ -24,10 +24,14 @@ pub struct Shapes<'a, A: Arithmetic> {
     pub cuboids: &'a [Cuboid<A>],
     /// Discs.
     pub discs: &'a [Disc<A>],
-    /// Open cylinders.
+    /// Cylinders.
     pub cylinders: &'a [Cylinder<A>],
-    /// Open cones.
+    /// Cones.
     pub cones: &'a [Cone<A>],
+    /// Solids of several shapes.
+    pub solids: &'a [Solid<A>],
+    /// The operands of all solids.
+    pub operands: &'a [Operand<A>],
     /// The octree over all of them. Without one every ray tests every shape, which is quicker for
     /// fewer than ten.
     pub tree: Option<Octree<'a, A>>,
@@ -76,17 +80,37 @@ macro_rules! with_shape {
                             } else {
                                 let index = index.wrapping_sub(shapes.discs.len());
                                 if has($uses, uses::CYLINDERS)
-                                    && let Some($shape) = shapes.cylinders.get(index)
+                                    && let Some(it) = shapes.cylinders.get(index)
                                 {
-                                    $body
+                                    if has($uses, uses::CAPS) {
+                                        let $shape = it;
+                                        $body
+                                    } else {
+                                        let $shape = &$crate::shape::Open(it);
+                                        $body
+                                    }
                                 } else {
                                     let index = index.wrapping_sub(shapes.cylinders.len());
                                     if has($uses, uses::CONES)
-                                        && let Some($shape) = shapes.cones.get(index)
+                                        && let Some(it) = shapes.cones.get(index)
                                     {
-                                        $body
+                                        if has($uses, uses::CAPS) {
+                                            let $shape = it;
+                                            $body
+                                        } else {
+                                            let $shape = &$crate::shape::Open(it);
+                                            $body
+                                        }
                                     } else {
-                                        $none
+                                        let index = index.wrapping_sub(shapes.cones.len());
+                                        if has($uses, uses::SOLIDS)
+                                            && let Some(solid) = shapes.solids.get(index)
+                                        {
+                                            let $shape = &solid.view(shapes.operands);
+                                            $body
+                                        } else {
+                                            $none
+                                        }
                                     }
                                 }
                             }
@@ -111,6 +135,8 @@ impl<A: Arithmetic> Shapes<'_, A> {
         discs: &[],
         cylinders: &[],
         cones: &[],
+        solids: &[],
+        operands: &[],
         tree: None,
     };
 
@@ -124,7 +150,8 @@ impl<A: Arithmetic> Shapes<'_, A> {
             + self.cuboids.len()
             + self.discs.len()
             + self.cylinders.len()
-            + self.cones.len()) as u32
+            + self.cones.len()
+            + self.solids.len()) as u32
     }
 
     /// One more than the highest material's index.
@@ -144,7 +171,7 @@ impl<A: Arithmetic> Shapes<'_, A> {
                 )*
             };
         }
-        look!(spheres triangles smooth_triangles polygons cuboids discs cylinders cones);
+        look!(spheres triangles smooth_triangles polygons cuboids discs cylinders cones operands);
         most
     }
 
@@ -165,13 +192,32 @@ impl<A: Arithmetic> Shapes<'_, A> {
                 )*
             };
         }
-        check!(spheres, triangles, smooth_triangles, polygons, cuboids, discs, cylinders, cones);
+        check!(
+            spheres,
+            triangles,
+            smooth_triangles,
+            polygons,
+            cuboids,
+            discs,
+            cylinders,
+            cones,
+            operands
+        );
         let mut i = 0;
         while i < self.polygons.len() {
             let polygon = &self.polygons[i];
             let end = polygon.first_edge() as u64 + polygon.edge_count() as u64;
             if end > self.edges.len() as u64 {
                 return Err(SceneError::Edges { polygon: i as u32 });
+            }
+            i += 1;
+        }
+        let mut i = 0;
+        while i < self.solids.len() {
+            let solid = &self.solids[i];
+            let end = solid.first_operand() as u64 + solid.operand_count() as u64;
+            if end > self.operands.len() as u64 {
+                return Err(SceneError::Operands { solid: i as u32 });
             }
             i += 1;
         }
@@ -197,6 +243,8 @@ impl<'a, A: Arithmetic> Parts<'a, A> {
             discs: self.discs,
             cylinders: self.cylinders,
             cones: self.cones,
+            solids: self.solids,
+            operands: self.operands,
             tree: self.tree,
         }
     }
@@ -242,6 +290,7 @@ for_each_arithmetic! {
             add!(self, discs, extents, next, log2_step);
             add!(self, cylinders, extents, next, log2_step);
             add!(self, cones, extents, next, log2_step);
+            add!(self, solids, extents, next, log2_step);
             extents
         }
     }

@@ -74,8 +74,14 @@ pub const EMISSION: u64 = 1 << 23;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
+/// Solids.
+pub const SOLIDS: u64 = 1 << 41;
+/// Cylinders and cones with caps.
+pub const CAPS: u64 = 1 << 42;
 /// [`Indirect::Cache`](crate::gather::Indirect::Cache).
 pub const IRRADIANCE_CACHE: u64 = 1 << 48;
+/// [`Indirect::VirtualLights`](crate::gather::Indirect::VirtualLights).
+pub const VIRTUAL_LIGHTS: u64 = 1 << 49;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -99,13 +105,14 @@ pub(crate) const fn has(uses: u64, what: u64) -> bool {
 /// Whether there may be other bounded shapes than spheres.
 #[inline(always)]
 pub(crate) const fn has_others(uses: u64) -> bool {
-    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES) != 0
+    uses & (TRIANGLES | SMOOTH_TRIANGLES | POLYGONS | CUBOIDS | DISCS | CYLINDERS | CONES | SOLIDS)
+        != 0
 }
 
 /// Whether there may be diffuse interreflection.
 #[inline(always)]
 pub(crate) const fn has_indirect(uses: u64) -> bool {
-    uses & IRRADIANCE_CACHE != 0
+    uses & (IRRADIANCE_CACHE | VIRTUAL_LIGHTS) != 0
 }
 
 /// Whether pictures may be sampled otherwise than by a ray through each pixel's centre.
@@ -133,6 +140,17 @@ const fn bit(wanted: bool, what: u64) -> u64 {
 impl<A: Arithmetic> Shapes<'_, A> {
     /// The bits of these shapes.
     pub(crate) const fn uses(&self) -> u64 {
+        let mut caps = false;
+        let mut i = 0;
+        while i < self.cylinders.len() {
+            caps |= self.cylinders[i].has_caps();
+            i += 1;
+        }
+        let mut i = 0;
+        while i < self.cones.len() {
+            caps |= self.cones[i].has_caps();
+            i += 1;
+        }
         bit(!self.triangles.is_empty(), TRIANGLES)
             | bit(!self.smooth_triangles.is_empty(), SMOOTH_TRIANGLES)
             | bit(!self.polygons.is_empty(), POLYGONS)
@@ -140,6 +158,8 @@ impl<A: Arithmetic> Shapes<'_, A> {
             | bit(!self.discs.is_empty(), DISCS)
             | bit(!self.cylinders.is_empty(), CYLINDERS)
             | bit(!self.cones.is_empty(), CONES)
+            | bit(!self.solids.is_empty(), SOLIDS)
+            | bit(caps, CAPS)
             | bit(self.tree.is_some(), TREE)
     }
 }

@@ -8,6 +8,7 @@
 
 use bytemuck::AnyBitPattern;
 
+use super::chord::{Chord, Convex};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point};
 use crate::blob::stored;
@@ -62,6 +63,18 @@ for_each_arithmetic! {
             Ok(cuboid)
         }
 
+        /// The box itself, in plain numbers.
+        pub(crate) const fn reach(&self) -> ([f64; 3], [f64; 3]) {
+            let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
+            let mut i = 0;
+            while i < 3 {
+                min[i] = make::from_length(self.min[i]);
+                max[i] = make::from_length(self.max[i]);
+                i += 1;
+            }
+            (min, max)
+        }
+
         /// The box itself.
         pub const fn extent(&self, log2_step: i8) -> Extent {
             let (mut min, mut max) = ([0; 3], [0; 3]);
@@ -86,6 +99,17 @@ fn mark<A: Arithmetic>(axis: u8) -> A::Length {
 impl<A: Arithmetic> Cuboid<A> {
     pub(crate) const fn material_id(&self) -> MaterialId {
         self.material
+    }
+}
+
+impl<A: Arithmetic> Convex<A> for Cuboid<A> {
+    fn chord(&self, ray: &Ray<A>, _: &A::Coarse) -> Option<Chord<A>> {
+        let slab = |i: usize| {
+            let o = ray.origin[i];
+            let mark = mark::<A>(i as u8);
+            Chord::<A>::slab(self.min[i] - o, self.max[i] - o, ray.direction[i], mark)
+        };
+        slab(0).and(slab(1))?.and(slab(2))
     }
 }
 

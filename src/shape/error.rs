@@ -17,6 +17,8 @@ pub enum ShapeError {
     Polygon,
     /// A coefficient is negative, not a number, or larger than its range.
     Coefficient,
+    /// A solid has more than eight operands, or none, or neither an inside nor an end.
+    Operands,
     /// The material's index is 32768 or more.
     Material,
     /// The shadow rays to an area light are none, more than 1024, or at least more than at most.
@@ -33,6 +35,7 @@ impl ShapeError {
             Self::Degenerate => "the corners lie on a line",
             Self::Polygon => "a polygon must be convex, plane, and of 3 to 255 corners",
             Self::Coefficient => "a coefficient is negative, not a number, or out of range",
+            Self::Operands => "a solid needs one to eight operands, an inside and an end",
             Self::Material => "a material's index is 32768 or more",
             Self::Samples => "an area light takes 1 to 1024 shadow rays, at least as many at most",
         }

@@ -8,6 +8,7 @@
 //! not tested; nor is a convex one (sphere, box, cylinder, cone) left outwards; left inwards, a
 //! convex shape is tested for its far root alone.
 
+mod chord;
 mod cone;
 mod cuboid;
 mod cylinder;
@@ -16,7 +17,9 @@ mod error;
 mod plane;
 mod polygon;
 mod projection;
+mod region;
 mod smooth_triangle;
+mod solid;
 mod sphere;
 #[cfg(test)]
 mod testing;
@@ -32,7 +35,9 @@ pub use error::ShapeError;
 pub(crate) use error::{ok_or_panic, point, rounded_point, some_or, unit_vector};
 pub use plane::Plane;
 pub use polygon::{Polygon, PolygonEdge, PolygonView};
+pub use region::Region;
 pub use smooth_triangle::SmoothTriangle;
+pub use solid::{Operand, Solid, SolidView};
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 
@@ -85,8 +90,8 @@ pub struct Meeting<A: Arithmetic> {
     /// The distance from the ray's origin.
     pub distance: A::Length,
     /// What the shape's [`surface`](Shape::surface) wants to know of the test: for a sphere or a
-    /// cylinder the half chord, negative at the near root; for a cuboid and a cone too it is
-    /// negative where the ray enters.
+    /// cylinder the half chord, negative at the near root; for a cuboid, a cone and a cap too it
+    /// is negative where the ray enters.
     pub detail: A::Length,
 }
 
@@ -149,6 +154,10 @@ pub trait Shape<A: Arithmetic> {
         self.material()
     }
 }
+
+/// A cylinder or cone of a scene in which none has caps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Open<'s, S>(pub(crate) &'s S);
 
 /// Which of the scene's materials a shape has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]

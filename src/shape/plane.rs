@@ -6,6 +6,7 @@
 
 use bytemuck::AnyBitPattern;
 
+use super::chord::{Chord, Convex, signed_ratio};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, some_or, turned};
 use crate::blob::stored;
@@ -73,6 +74,23 @@ for_each_arithmetic! {
 impl<A: Arithmetic> Plane<A> {
     pub(crate) const fn material_id(&self) -> MaterialId {
         self.material
+    }
+}
+
+/// All that lies behind it.
+impl<A: Arithmetic> Convex<A> for Plane<A> {
+    fn chord(&self, ray: &Ray<A>, _: &A::Coarse) -> Option<Chord<A>> {
+        let height = A::project(&ray.origin, &self.normal) - self.offset;
+        let slope = A::dot(&ray.direction, &self.normal);
+        let mut chord = Chord::endless();
+        if slope > A::NO_UNIT {
+            chord.exit.distance = signed_ratio::<A>(-height, slope);
+        } else if slope < A::NO_UNIT {
+            chord.entry.distance = signed_ratio::<A>(height, -slope);
+        } else if height > A::NO_LENGTH {
+            return None;
+        }
+        Some(chord)
     }
 }
 

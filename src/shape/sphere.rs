@@ -12,6 +12,7 @@
 
 use bytemuck::AnyBitPattern;
 
+use super::chord::{Chord, Convex};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned};
 use crate::blob::stored;
@@ -59,6 +60,19 @@ for_each_arithmetic! {
             })
         }
 
+        /// The box around it.
+        pub(crate) const fn reach(&self) -> ([f64; 3], [f64; 3]) {
+            let r = make::from_radius(&self.radius);
+            let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
+            let mut i = 0;
+            while i < 3 {
+                let c = make::from_length(self.center[i]);
+                (min[i], max[i]) = (c - r, c + r);
+                i += 1;
+            }
+            (min, max)
+        }
+
         /// The sphere itself.
         pub const fn extent(&self, log2_step: i8) -> Extent {
             Extent::Sphere {
@@ -92,6 +106,23 @@ impl<A: Arithmetic> Sphere<A> {
     #[must_use]
     pub fn at(self, center: [A::Length; 3]) -> Self {
         Self { center, ..self }
+    }
+}
+
+impl<A: Arithmetic> Convex<A> for Sphere<A> {
+    fn chord(&self, ray: &Ray<A>, coarse: &A::Coarse) -> Option<Chord<A>> {
+        if !A::may_hit(coarse, &self.center, &self.radius, A::FAR) {
+            return None;
+        }
+        let c = sub(&self.center, &ray.origin);
+        let t = A::project(&c, &ray.direction);
+        let leg2 = A::leg2(&self.radius, &c, t, &ray.direction)?;
+        let t = if A::REFINE { t + A::ahead(&self.radius, &c, t, &ray.direction) } else { t };
+        let half = A::leg(&self.radius, leg2);
+        Some(Chord {
+            entry: Meeting { distance: t - half, detail: -half },
+            exit: Meeting { distance: t + half, detail: half },
+        })
     }
 }
 

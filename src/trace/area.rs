@@ -12,6 +12,7 @@ use crate::scene::{AreaLight, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 use place::Seen;
+pub(crate) use place::point_of_light;
 
 /// A point being shaded, by value: what a reference is taken of can't stay in registers.
 #[derive(Clone, Copy)]

@@ -1,19 +1,79 @@
 //! Diffuse interreflection at a point.
 
-use crate::gather::Indirect;
-use crate::math::{Arithmetic, Rgb};
+use super::visible::visible;
+use super::work::Scratch;
+use crate::gather::{Indirect, VirtualLights};
+use crate::math::{Arithmetic, Rgb, rgb, sub};
 use crate::scene::Scene;
+use crate::scene::uses::{self, has};
+use crate::shape::Ray;
+use crate::tally::{RayKind, Tally};
+
+/// A point that is lit by others.
+#[derive(Clone, Copy)]
+pub(super) struct Spot<A: Arithmetic> {
+    /// A ray from there, complete but for its direction.
+    pub(super) ray: Ray<A>,
+    pub(super) p: [A::Length; 3],
+    pub(super) normal: [A::Unit; 3],
+    pub(super) depth: u8,
+    /// The pixel's place among those that take turns.
+    pub(super) turn: u8,
+}
 
 /// The irradiance that other surfaces send to a point, divided by π; `None` where the constant
 /// ambient term stands for it.
 #[inline(always)]
-pub(super) fn indirect<A: Arithmetic, const USES: u64>(
+pub(super) fn indirect<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
-    p: [A::Length; 3],
-    normal: [A::Unit; 3],
+    spot: Spot<A>,
+    scratch: &mut Scratch<A>,
+    tally: &mut T,
 ) -> Option<Rgb<A::Radiance>> {
     match &scene.parts.indirect {
-        Indirect::None => None,
-        Indirect::Cache(cache) => Some(cache.irradiance(p, normal)),
+        Indirect::Cache(cache) if has(USES, uses::IRRADIANCE_CACHE) => {
+            Some(cache.irradiance(spot.p, spot.normal))
+        }
+        Indirect::VirtualLights(lights) if has(USES, uses::VIRTUAL_LIGHTS) => {
+            Some(virtual_lights(scene, lights, spot, scratch, tally))
+        }
+        _ => None,
     }
+}
+
+/// What the virtual lights of a pixel's part send.
+#[inline(never)]
+fn virtual_lights<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    lights: &VirtualLights<'_, A>,
+    spot: Spot<A>,
+    scratch: &mut Scratch<A>,
+    tally: &mut T,
+) -> Rgb<A::Radiance> {
+    let mut sum = [A::BLACK; 3];
+    let mut ray = spot.ray;
+    for light in lights.part(spot.turn) {
+        if light.is_dark() {
+            continue;
+        }
+        let (direction, distance, mut inverse) = A::normalize(&sub(&light.position, &ray.origin));
+        let here = A::cosine(&spot.normal, &direction);
+        let there = -A::cosine(&light.normal(), &direction);
+        if here <= A::NO_WEIGHT || there <= A::NO_WEIGHT {
+            continue;
+        }
+        if distance < lights.nearest() {
+            inverse = A::normalize(&[lights.nearest(), A::NO_LENGTH, A::NO_LENGTH]).2;
+        }
+        let irradiance = A::falloff(&light.intensity, &inverse);
+        ray.direction = direction;
+        tally.ray(RayKind::Shadow, spot.depth, &ray, &[A::FULL; 3]);
+        // Not quite to the light, which lies on a surface.
+        let end = distance - A::scale(distance, A::fraction(32));
+        let Some(share) = visible(scene, &ray, end, scratch, tally) else { continue };
+        let cosines = A::weight(here, there);
+        let factor = rgb(&light.color(), &share, A::weight).map(|c| A::weight(c, cosines));
+        sum = rgb(&sum, &factor.map(|f| A::dim(irradiance, f)), A::gather);
+    }
+    sum.map(|sum| lights.scaled(sum))
 }

@@ -11,6 +11,7 @@ mod site;
 mod visible;
 mod work;
 
+pub(crate) use area::point_of_light;
 pub use nearest::Hit;
 pub use radiance::Tracer;
 pub use work::Work;

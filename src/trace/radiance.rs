@@ -5,7 +5,7 @@
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
 use super::direct::{Shading, direct};
-use super::indirect::indirect;
+use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
 use super::work::{Scratch, Work};
@@ -49,13 +49,15 @@ pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
     gathering: bool,
     key: u32,
+    /// Whose turn it is among virtual lights.
+    turn: u8,
 }
 
 impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth, key: 0, gathering: false }
+        Self { scene, depth, key: 0, turn: 0, gathering: false }
     }
 
     /// A tracer for rays that gather irradiance: what they see of the lights is counted elsewhere.
@@ -70,6 +72,12 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     #[must_use]
     pub fn with_key(self, key: u32) -> Self {
         Self { key, ..self }
+    }
+
+    /// The place of the pixel whose rays follow: see [`Row::in_tile`](crate::scene::Row).
+    #[inline(always)]
+    pub(crate) fn set_turn(&mut self, turn: u8) {
+        self.turn = turn;
     }
 
     #[inline(always)]
@@ -208,9 +216,25 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             *sum = rgb(sum, &radiance, A::gather);
         }
 
+        let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
+        let outside = Ray {
+            origin: A::leave(&p, &surface.geometric, hit.distance),
+            direction: mirror,
+            leaving: Leaving::back(hit.shape, &surface),
+        };
         let (share, irradiance, term) = if has_indirect(USES)
-            && let Some(irradiance) = indirect(scene, p, surface.normal)
-        {
+            && let Some(irradiance) = indirect(
+                scene,
+                Spot {
+                    ray: outside,
+                    normal: surface.normal,
+                    p,
+                    depth: path.depth,
+                    turn: self.turn,
+                },
+                scratch,
+                tally,
+            ) {
             (&material.diffuse, irradiance, Term::Indirect)
         } else {
             (&material.ambient, scene.parts.ambient.0, Term::Ambient)
@@ -219,12 +243,6 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         tally.term::<A>(term, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 
-        let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
-        let outside = Ray {
-            origin: A::leave(&p, &surface.geometric, hit.distance),
-            direction: mirror,
-            leaving: Leaving::back(hit.shape, &surface),
-        };
         let shading = Shading {
             surface: &surface,
             material,

@@ -6,7 +6,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted::frame::Sampling;
+use whitted_demo::job::{ArithName, Job, SAMPLINGS, SceneName};
 
 use crate::elf;
 use crate::firmware::result;
@@ -143,6 +144,7 @@ the same on every machine.
 - Rays are all but shadow rays, the camera's among them.
 - Stack is what a frame needs below its call: the tracer's memory for five generations and a row
   of 320 pixels (960 bytes) among it.
+- A sampling stands behind its scene (`docs/sampling.md`); its stack holds 560 samples of 16 bytes.
 - Software floating point (f32 on Cortex-M0 and M3) is counted on small frames.
 - The images `limit-fixed` and `limit-f32` hold a row of the limit scene, 240 pixels of RGB565,
   and nothing else.
@@ -157,13 +159,22 @@ fn jobs(machine: &Machine) -> Vec<Job> {
         (SceneName::Ftb, 160, 120),
     ];
     let job = |(scene, width, height), arith| {
-        if arith == ArithName::F32 && !machine.float {
-            Job { scene, arith, width: 80, height: 60 }
-        } else {
-            Job { scene, arith, width, height }
-        }
+        let (width, height) =
+            if arith == ArithName::F32 && !machine.float { (80, 60) } else { (width, height) };
+        Job { scene, arith, width, height, sampling: Sampling::Center }
     };
-    sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith))).collect()
+    let mut jobs: Vec<Job> =
+        sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith))).collect();
+    // The samplings, where they matter: the smallest core, and one with a floating-point unit.
+    let arith = if machine.float { ArithName::F32 } else { ArithName::Fixed };
+    if ["Cortex-M0", "Cortex-M4F"].contains(&machine.core) {
+        for (_, sampling) in SAMPLINGS {
+            // What takes many rays shows in a smaller picture.
+            let side = if sampling == Sampling::SPARSE { 240 } else { 120 };
+            jobs.push(Job { sampling, ..job((SceneName::Limit, side, side), arith) });
+        }
+    }
+    jobs
 }
 
 /// Runs a machine's jobs; returns the bytes of static RAM.
@@ -189,7 +200,10 @@ fn frame(machine: &Machine, job: &Job, record: Record<'_>) -> Result<Vec<String>
     let instructions = record.number("instructions")? as f64 / pixels;
     Ok(vec![
         machine.core.into(),
-        job.scene.name().into(),
+        match job.sampling_name() {
+            Some(sampling) => format!("{}, {sampling}", job.scene.name()),
+            None => job.scene.name().into(),
+        },
         job.arith.name().into(),
         format!("{}×{}", job.width, job.height),
         format!("{instructions:.0}"),

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use whitted::tally::Counts;
 use whitted_demo::frame;
-use whitted_demo::job::Job;
+use whitted_demo::job::{Job, JobError};
 
 use crate::machine::{Log, MACHINES, Record};
 use crate::oled;
@@ -12,6 +12,9 @@ use crate::report::Report;
 
 /// A small frame takes a second or two; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(240);
+
+/// Two cores are to be quicker than one by this factor.
+pub(crate) const TWO_CORES: f64 = 1.8;
 
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
@@ -33,6 +36,10 @@ pub(crate) fn check(report: &mut Report) {
                 same_bits(&log, job)
             });
         }
+        for record in log.records("shared") {
+            let name = record.get("job").unwrap_or("a job");
+            report.check(&format!("{}: {name}, each a share", machine.core), || shared(record));
+        }
         if machine.display {
             report
                 .check(&format!("{}: the display shows the host's picture", machine.core), || {
@@ -40,6 +47,23 @@ pub(crate) fn check(report: &mut Report) {
                 });
         }
     }
+}
+
+/// Two cores draw the picture of one, and soon enough.
+fn shared(record: Record<'_>) -> Result<(), String> {
+    let job: Job = record.get("job")?.parse().map_err(|e: JobError| e.to_string())?;
+    let checksum = format!("{:016x}", frame::count(&job).0.value());
+    let there = record.get("checksum")?;
+    if there != checksum {
+        return Err(format!("checksum {there}, on the host {checksum}"));
+    }
+    let alone = record.number("alone")?;
+    let cores = record.get("cores")?;
+    let busier = cores.split(',').filter_map(|n| n.parse::<u64>().ok()).max().unwrap_or(u64::MAX);
+    let ratio = alone as f64 / busier as f64;
+    let line = format!("{alone} instructions on one core, {cores} on two: {ratio:.2} times");
+    println!("     {line}");
+    if ratio >= TWO_CORES { Ok(()) } else { Err(line) }
 }
 
 /// The loop of known length was counted right, to the tick at either end.

@@ -53,7 +53,7 @@ pub(crate) struct Machine {
 }
 
 /// All of them.
-pub(crate) const MACHINES: [Machine; 7] = [
+pub(crate) const MACHINES: [Machine; 8] = [
     Machine {
         core: "Cortex-M0",
         board: "microbit",
@@ -106,6 +106,15 @@ pub(crate) const MACHINES: [Machine; 7] = [
         machine: "mps2-an505",
         emulator: Emulator::ARM,
         float: true,
+        display: false,
+    },
+    Machine {
+        core: "two Cortex-M33",
+        board: "mps2-an521",
+        target: "thumbv8m.main-none-eabi",
+        machine: "mps2-an521",
+        emulator: Emulator::ARM,
+        float: false,
         display: false,
     },
     Machine {

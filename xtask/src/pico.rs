@@ -9,11 +9,13 @@ use std::process::Command;
 use embedded_graphics::pixelcolor::raw::RawU16;
 use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
 use embedded_graphics::prelude::*;
+use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
 
 use crate::cores;
 use crate::elf;
+use crate::firmware::TWO_CORES;
 use crate::machine::{self, Record};
 use crate::report::Report;
 use crate::setup;
@@ -43,9 +45,6 @@ const SMALL: (u16, u16) = (60, 45);
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
 /// Sending by DMA may add this to tracing.
 const SENDING: f64 = 0.03;
-
-/// Two cores are to be quicker than one by this factor.
-const TWO_CORES: f64 = 1.8;
 
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
@@ -180,7 +179,7 @@ fn both_cores(job: &Job) -> Result<(), String> {
 }
 
 fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
-    Job { scene, arith: ArithName::Fixed, width, height }
+    Job { scene, arith: ArithName::Fixed, width, height, sampling: Sampling::Center }
 }
 
 fn build(display: &Display) -> Result<PathBuf, String> {

@@ -7,10 +7,11 @@ use crate::machine::Emulator;
 use crate::shell::{self, output, present, root};
 
 /// What the firmware and the proofs are built for.
-const TARGETS: [&str; 5] = [
+const TARGETS: [&str; 6] = [
     "thumbv6m-none-eabi",
     "thumbv7m-none-eabi",
     "thumbv7em-none-eabihf",
+    "thumbv8m.main-none-eabi",
     "thumbv8m.main-none-eabihf",
     "riscv32imac-unknown-none-elf",
 ];

@@ -1,12 +1,12 @@
 //! The frame loop: one row after another, through one row buffer.
 
-use whitted::frame::{Renderer, Rgb888, Settings};
+use whitted::frame::{Renderer, Rgb888, Sample, Sampling, Settings};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::Work;
 
 use crate::checksum::Checksum;
-use crate::job::{ArithName, Job, MAX_WIDTH};
+use crate::job::{ArithName, Job, MAX_SAMPLES, MAX_WIDTH};
 use crate::scenes::{Shot, Shots, View};
 
 /// The depth that there is memory for.
@@ -40,9 +40,11 @@ fn run<T: Tally + Copy + Default>(
     show: impl FnMut(&[Rgb888]),
 ) -> (Checksum, T) {
     let frame = Frame { job, watch, show, tally: T::default() };
-    match job.arith {
-        ArithName::Fixed => Fixed::shot(job.scene, frame),
-        ArithName::F32 => f32::shot(job.scene, frame),
+    match (job.arith, job.sampling) {
+        (ArithName::Fixed, Sampling::Center) => Fixed::shot(job.scene, frame),
+        (ArithName::F32, Sampling::Center) => f32::shot(job.scene, frame),
+        (ArithName::Fixed, _) => Fixed::sampled(frame),
+        (ArithName::F32, _) => f32::sampled(frame),
     }
 }
 
@@ -63,17 +65,43 @@ where
 {
     type Output = (Checksum, T);
 
+    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
+        if self.job.sampling == Sampling::Center {
+            self.draw(&shot, &mut [])
+        } else {
+            self.sampled(&shot)
+        }
+    }
+}
+
+impl<W, S, T> Frame<'_, W, S, T>
+where
+    W: Watch,
+    S: FnMut(&[Rgb888]),
+    T: Tally + Copy,
+{
+    /// With room for samples.
+    #[inline(never)]
+    fn sampled<A: Arithmetic, const USES: u64>(self, shot: &Shot<A, USES>) -> (Checksum, T) {
+        self.draw(shot, &mut [Sample::NONE; MAX_SAMPLES])
+    }
+
     /// Not inlined, so that its stack frame, with the row and the tracer's memory, is its own.
     ///
     /// # Panics
     /// Never: a job's size fits, and no scene is deeper than the memory.
     #[inline(never)]
-    fn view<const USES: u64>(mut self, shot: Shot<A, USES>) -> (Checksum, T) {
+    fn draw<A: Arithmetic, const USES: u64>(
+        mut self,
+        shot: &Shot<A, USES>,
+        samples: &mut [Sample<A>],
+    ) -> (Checksum, T) {
         let job = self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();
-        let settings = Settings { depth: shot.depth, ..Settings::new(job.width, job.height) };
+        let mut settings = Settings::new(job.width, job.height);
+        (settings.depth, settings.sampling) = (shot.depth, job.sampling);
         let mut renderer =
-            Renderer::with_tally(shot.scene, shot.camera, settings, &mut work, &mut [], self.tally)
+            Renderer::with_tally(shot.scene, shot.camera, settings, &mut work, samples, self.tally)
                 .expect("a job fits");
 
         let mut checksum = Checksum::EMPTY;

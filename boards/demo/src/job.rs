@@ -1,7 +1,10 @@
-//! What to draw: a scene, an arithmetic and a size, written `limit:fixed:120x90`.
+//! What to draw: a scene, an arithmetic and a size, written `limit:fixed:120x90`,
+//! and a sampling if it isn't one ray a pixel, `limit:fixed:120x90:sparse`.
 
 use core::fmt;
 use core::str::FromStr;
+
+use whitted::frame::Sampling;
 
 /// The scenes that firmware carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,26 +74,46 @@ pub struct Job {
     pub width: u16,
     /// Rows, 1 to [`MAX_HEIGHT`].
     pub height: u16,
+    /// Where its rays go; but for the limit scene, one through each pixel's centre.
+    pub sampling: Sampling,
 }
+
+/// Samples that a firmware remembers at most: sparse ones for a row of 240 pixels.
+pub const MAX_SAMPLES: usize = 560;
+
+/// The samplings that jobs may ask for, as they are written.
+pub const SAMPLINGS: [(&str, Sampling); 5] = [
+    ("corners", Sampling::Corners),
+    ("grid:2", Sampling::Grid { side: 2 }),
+    ("jittered:2", Sampling::Jittered { side: 2, seed: 0 }),
+    ("adaptive", Sampling::ADAPTIVE),
+    ("sparse", Sampling::SPARSE),
+];
 
 impl Job {
     /// What firmware draws when nobody says what: every scene in both arithmetics, at a size that
     /// software floating point finishes in a second or so.
+    /// The samplings are tried in fixed point.
     pub fn small() -> impl Iterator<Item = Self> {
-        SceneName::ALL.into_iter().flat_map(|scene| {
-            ArithName::ALL.into_iter().map(move |arith| Self {
-                scene,
-                arith,
-                width: 80,
-                height: 60,
-            })
-        })
+        let job = |scene, arith, sampling| Self { scene, arith, width: 80, height: 60, sampling };
+        let scenes = SceneName::ALL
+            .into_iter()
+            .flat_map(move |s| ArithName::ALL.map(|arith| job(s, arith, Sampling::Center)));
+        let fixed = ArithName::Fixed;
+        scenes.chain(SAMPLINGS.map(|(_, sampling)| job(SceneName::Limit, fixed, sampling)))
+    }
+
+    /// How the sampling is written; nothing for pixel centres.
+    #[must_use]
+    pub fn sampling_name(&self) -> Option<&'static str> {
+        SAMPLINGS.into_iter().find_map(|(name, s)| (s == self.sampling).then_some(name))
     }
 }
 
 impl fmt::Display for Job {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}x{}", self.scene.name(), self.arith.name(), self.width, self.height)
+        write!(f, "{}:{}:{}x{}", self.scene.name(), self.arith.name(), self.width, self.height)?;
+        self.sampling_name().map_or(Ok(()), |name| write!(f, ":{name}"))
     }
 }
 
@@ -105,6 +128,8 @@ pub enum JobError {
     Arithmetic,
     /// Not a size, or one that firmware has no room for.
     Size,
+    /// No such sampling, or one of another scene than the limit scene.
+    Sampling,
 }
 
 impl fmt::Display for JobError {
@@ -113,7 +138,13 @@ impl fmt::Display for JobError {
             Self::Form => f.write_str("a job is written scene:arithmetic:WIDTHxHEIGHT"),
             Self::Scene => f.write_str("scenes are showcase, limit, raystones and ftb"),
             Self::Arithmetic => f.write_str("arithmetics are fixed and f32"),
-            Self::Size => write!(f, "sizes go from 1x1 to {MAX_WIDTH}x{MAX_HEIGHT}"),
+            Self::Size => write!(
+                f,
+                "sizes go from 1x1 to {MAX_WIDTH}x{MAX_HEIGHT}, as far as {MAX_SAMPLES} samples do"
+            ),
+            Self::Sampling => f.write_str(
+                "the limit scene takes corners, grid:2, jittered:2, adaptive and sparse, others none",
+            ),
         }
     }
 }
@@ -126,6 +157,10 @@ impl FromStr for Job {
     fn from_str(s: &str) -> Result<Self, JobError> {
         let (scene, rest) = s.split_once(':').ok_or(JobError::Form)?;
         let (arith, size) = rest.split_once(':').ok_or(JobError::Form)?;
+        let (size, sampling) = match size.split_once(':') {
+            Some((size, sampling)) => (size, Some(sampling)),
+            None => (size, None),
+        };
         let (width, height) = size.split_once('x').ok_or(JobError::Size)?;
         let scene =
             SceneName::ALL.into_iter().find(|s| s.name() == scene).ok_or(JobError::Scene)?;
@@ -134,7 +169,18 @@ impl FromStr for Job {
         let side = |text: &str, most| {
             text.parse::<u16>().ok().filter(|&n| n > 0 && n <= most).ok_or(JobError::Size)
         };
-        Ok(Self { scene, arith, width: side(width, MAX_WIDTH)?, height: side(height, MAX_HEIGHT)? })
+        let (width, height) = (side(width, MAX_WIDTH)?, side(height, MAX_HEIGHT)?);
+        let sampling = match sampling {
+            None => Sampling::Center,
+            Some(name) => SAMPLINGS
+                .into_iter()
+                .find_map(|(known, s)| (known == name && scene == SceneName::Limit).then_some(s))
+                .ok_or(JobError::Sampling)?,
+        };
+        if sampling.samples(width) > MAX_SAMPLES {
+            return Err(JobError::Size);
+        }
+        Ok(Self { scene, arith, width, height, sampling })
     }
 }
 
@@ -163,6 +209,9 @@ mod tests {
             ("limit:fixed:0x8", JobError::Size),
             ("limit:fixed:321x8", JobError::Size),
             ("limit:fixed:8x-8", JobError::Size),
+            ("limit:fixed:8x8:fine", JobError::Sampling),
+            ("ftb:fixed:8x8:sparse", JobError::Sampling),
+            ("limit:fixed:320x8:sparse", JobError::Size),
         ] {
             assert_eq!(text.parse::<Job>(), Err(error), "{text}");
         }

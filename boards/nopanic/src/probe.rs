@@ -16,17 +16,19 @@ use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::blob::{self, Blob, Content};
-use whitted::frame::{self, Dither, Output, Renderer, Sample, Sampling, Settings, Tone, Transfer};
+use whitted::frame::Transfer;
+use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
-use whitted::gather::{Record, RecordSpec};
+use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
+use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
 use whitted::scene::{Group, Instance, Light, LightSpec};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
-use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Plane, Polygon, SmoothTriangle};
-use whitted::shape::{Sphere, Triangle};
+use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
+use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::{Tracer, Work};
 use whitted::{Color, Picture};
@@ -76,6 +78,24 @@ macro_rules! arithmetic {
             let (base, apex) = (any([0.0; 3]), any([1.0; 3]));
             let cylinders = any([Cylinder::<$a>::try_new(base, apex, any(1.0), any(0)).ok()?; 2]);
             let cones = any([Cone::<$a>::try_new(base, any(1.0), apex, any(2.0), any(0)).ok()?; 2]);
+            let cylinders = [cylinders[0], any(cylinders[1].with_caps())];
+            let cones = [cones[0], any(cones[1].with_caps())];
+            let operands = any([
+                Operand::Sphere(spheres[0]),
+                Operand::Cuboid(cuboids[0]),
+                Operand::Cylinder(cylinders[0]),
+                Operand::Cone(cones[0]),
+                Operand::HalfSpace(planes[0]),
+            ]);
+            let region = any(Region::of(any(0))).or(any(Region::of(1))).and(any(Region::of(2)));
+            let region = any(region.minus(any(Region::NOTHING)));
+            any((region.is_nothing(), region.holds(any(7))));
+            let solid = Solid::<$a>::try_new(region, any(&operands), any(0), any(5));
+            if let Err(error) = &solid {
+                any(error.message());
+            }
+            let solids = any([solid.ok()?]);
+            any((solids[0].first_operand(), solids[0].operand_count()));
             any(Triangle::<$a>::extent_of(corners, any(-16)));
             any(Polygon::<$a>::extent_of(any(&corners), any(-16)));
             let (position, direction, intensity) = (any([1.0; 3]), any([1.0; 3]), any([9.0; 3]));
@@ -132,6 +152,8 @@ macro_rules! arithmetic {
                 discs: &discs,
                 cylinders: &cylinders,
                 cones: &cones,
+                solids: &solids,
+                operands: &operands,
                 tree: None,
             });
             let group = Group::<$a>::try_new(shapes);
@@ -158,6 +180,8 @@ macro_rules! arithmetic {
                 discs: any(&discs),
                 cylinders: any(&cylinders),
                 cones: any(&cones),
+                solids: any(&solids),
+                operands: any(&operands),
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
@@ -181,6 +205,7 @@ macro_rules! arithmetic {
                 discs[0].extent(step),
                 cylinders[0].extent(step),
                 cones[0].extent(step),
+                solids[0].extent(step),
             ]);
             any(parts.bounded());
             let (mut words, mut scratch) = (any([0; 80]), any([0; 80]));
@@ -190,7 +215,7 @@ macro_rules! arithmetic {
                 any(error.message());
             }
             let cube = any(built.ok()?).cube;
-            let tree = Octree::<$a>::try_new(any(&words), any(8), &cube, any(-16));
+            let tree = Octree::<$a>::try_new(any(&words), any(9), &cube, any(-16));
             if let Err(error) = &tree {
                 any(error.message());
             }
@@ -238,7 +263,20 @@ macro_rules! arithmetic {
             let filled = gatherer.ok()?.fill(&camera, size, &mut pool, &mut drafts).ok()?;
             any((filled.is_full(), filled.records().len()));
             let cache = IrradianceCache::<$a>::try_new(any(filled.records()), any(0.25)).ok()?;
-            let scene = any(scene.with_indirect(any(Indirect::Cache(cache))).ok()?);
+            let spec = VirtualLightsSpec {
+                bounces: any(2),
+                tile: any(2),
+                nearest: any(0.5),
+                center: any([0.0; 3]),
+                radius: any(9.0),
+            };
+            let settings = any(VirtualLightsSettings::<$a>::try_new(&spec).ok()?);
+            let mut pool = any([VirtualLight::<$a>::NONE; 16]);
+            let laid = VirtualLights::lay(&scene, &settings, &mut pool, &mut memory, &mut counts);
+            let laid = any(VirtualLights::new(any(laid.lights()), &settings));
+            let indirect = any([Indirect::Cache(cache), Indirect::VirtualLights(laid)]);
+            any(indirect[0].uses());
+            let scene = any(scene.with_indirect(any(indirect[1])).ok()?);
             let camera = Camera::<$a>::try_from_vectors(
                 any([0.0; 3]),
                 any([1.0; 3]),
@@ -296,6 +334,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
         ..Settings::new(any(60), any(60))
     };
     any(settings.sampling.samples(any(60)));
+    any(settings.sampling.uses());
     let samples = &mut samples[..];
     let mut renderer =
         Renderer::with_tally(scene, camera, settings, &mut work, any(samples), tally).ok()?;
@@ -310,6 +349,15 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let ray = any(renderer.ray(any(3), any(4)));
     any(renderer.radiance(&ray));
     pixels(&mut renderer, &output);
+    let mut passes = any(Passes::new(any(16))).ok()?;
+    any(renderer.refine(
+        &mut passes,
+        |_| any(false),
+        |block| {
+            any(block.x);
+        },
+    ));
+    any((passes.side(), passes.is_done()));
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
@@ -349,6 +397,10 @@ fn picture<'a, A: Arithmetic, T: Tally, C: Color>(
     any(Image::new(&picture, any(Point::zero())).draw(&mut display).is_ok());
     let area = Rectangle::new(any(Point::zero()), any(Size::new(9, 9)));
     any(picture.draw_sub_image(&mut display, &area).is_ok());
+    if let Ok(mut passes) = Passes::new(any(8)) {
+        let place = any(Point::zero());
+        any(picture.refine(&mut display, place, &mut passes, |_| any(false)).is_ok());
+    }
     any(display.color);
     picture.into_renderer()
 }
@@ -382,6 +434,12 @@ impl<C: PixelColor> DrawTarget for Display<C> {
         any(area);
         colors.into_iter().for_each(|color| self.color = any(Some(color)));
         any(Err(()))
+    }
+
+    fn fill_solid(&mut self, area: &Rectangle, color: C) -> Result<(), ()> {
+        any(area);
+        self.color = any(Some(color));
+        any(Ok(()))
     }
 }
 

@@ -36,7 +36,7 @@ fn host<A: Construct>(file: &str, depth: u8) -> Vec<Rgb888> {
     let document = read::read(&file).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(document.rules.depth, depth);
     let baked = Baked::<A>::new(&document).unwrap();
-    render(&baked.scene().unwrap(), &baked.camera(SIZE).unwrap(), depth)
+    baked.with_scene(|scene| render(scene, &baked.camera(SIZE).unwrap(), depth)).unwrap()
 }
 
 macro_rules! same {

@@ -23,8 +23,9 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The scene holds what a blob can't.
     pub fn blob(&self, size: Size) -> Result<Flash, Flaw> {
-        let parts = *self.scene()?.parts();
         self.bakeable()?;
+        let uses = self.with_scene(|scene| scene.parts().uses())?;
+        let parts = self.shapes.parts()?;
         let materials: Result<Vec<_>, _> =
             self.placed.materials.iter().map(specs::material).collect();
         let materials = materials.map_err(|e| super::refused::<A>("the material", e, None))?;
@@ -40,14 +41,14 @@ impl<A: Construct> Baked<A> {
                 discs: parts.discs,
                 cylinders: parts.cylinders,
                 cones: parts.cones,
-                tree: None,
+                ..Shapes::EMPTY
             },
             planes: parts.planes,
             tree: self.shapes.words(),
             materials: &materials,
             lights: &lights,
             setting: specs::setting(&self.placed, size),
-            uses: parts.uses(),
+            uses,
         };
         let mut bytes = Vec::new();
         content.write(&mut |part| bytes.extend_from_slice(part));
@@ -61,12 +62,15 @@ impl<A: Construct> Baked<A> {
 
     /// Whether baked forms can hold all of the scene.
     pub(super) fn bakeable(&self) -> Result<(), Flaw> {
-        let parts = *self.scene()?.parts();
-        let without = [
-            ("instances of groups", parts.instances.is_empty()),
-            ("area lights", parts.area_lights.is_empty()),
-            ("irradiance records", matches!(parts.indirect, Indirect::None)),
-        ];
+        let without = self.with_scene(|scene| {
+            let parts = scene.parts();
+            [
+                ("instances of groups", parts.instances.is_empty()),
+                ("solids", parts.solids.is_empty()),
+                ("area lights", parts.area_lights.is_empty()),
+                ("interreflection", matches!(parts.indirect, Indirect::None)),
+            ]
+        })?;
         match without.into_iter().find(|(_, empty)| !empty) {
             None => Ok(()),
             Some((what, _)) => {

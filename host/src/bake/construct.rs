@@ -6,12 +6,12 @@
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
-    Ambient, Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Rules, Scene,
-    SceneError,
+    Ambient, Background, Camera, Group, Instance, Light, LightSpec, Material, MaterialSpec, Parts,
+    Rules, Scene, SceneError, Shapes, Transform,
 };
 use whitted::shape::{
-    Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
-    Triangle,
+    Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
+    SmoothTriangle, Solid, Sphere, Triangle,
 };
 
 type Point = [f64; 3];
@@ -105,6 +105,11 @@ construct! {
     /// See [`Cone`].
     fn new_cone(base: Point, r: f64, apex: Point, apex_r: f64, material: u16) -> Made<Cone<Self>>
         = |A| Cone::<A>::try_new(base, r, apex, apex_r, material);
+    /// See [`Solid`].
+    fn new_solid(
+        region: Region, operands: &[Operand<Self>], first: u32, count: u8
+    ) -> Made<Solid<Self>>
+        = |A| Solid::<A>::try_new(region, operands, first, count);
     /// See [`Plane`].
     fn new_plane(normal: Point, offset: f64, material: u16) -> Made<Plane<Self>>
         = |A| Plane::<A>::try_new(normal, offset, material);
@@ -130,6 +135,9 @@ construct! {
     /// Where a cone lies.
     fn cone_extent(shape: &Cone<Self>, log2_step: i8) -> Extent
         = |A| { let shape: &Cone<A> = shape; shape.extent(log2_step) };
+    /// Where a solid lies.
+    fn solid_extent(shape: &Solid<Self>, log2_step: i8) -> Extent
+        = |A| { let shape: &Solid<A> = shape; shape.extent(log2_step) };
     /// See [`Octree`].
     fn new_octree<'t>(
         words: &'t [u32], shapes: usize, cube: &Cube, log2_step: i8
@@ -154,6 +162,14 @@ construct! {
     /// The ambient irradiance.
     fn new_ambient(color: Point) -> Made<Ambient<Self>>
         = |A| Ambient::<A>::try_new(color);
+    /// See [`Group`].
+    fn new_group<'s>(shapes: Shapes<'s, Self>) -> Result<Group<'s, Self>, SceneError>
+        = |A| Group::<A>::try_new(shapes);
+    /// See [`Instance`].
+    fn new_instance<'s>(
+        group: &'s Group<'s, Self>, transform: &Transform
+    ) -> Made<Instance<'s, Self>>
+        = |A| Instance::<A>::try_new(group, transform);
     /// See [`Scene::new`].
     fn new_scene<'s>(parts: Parts<'s, Self>) -> Result<Scene<'s, Self>, SceneError>
         = |A| Scene::<A>::new(parts);

@@ -2,6 +2,7 @@
 
 mod blob;
 mod construct;
+mod group;
 mod place;
 mod shapes;
 mod source;
@@ -9,6 +10,7 @@ mod specs;
 
 pub use blob::{Flash, parts_of};
 pub use construct::Construct;
+use group::Groups;
 pub use place::Placement;
 use shapes::Shapes;
 pub use shapes::Thrift;
@@ -19,6 +21,7 @@ use whitted::shape::ShapeError;
 
 use crate::document::{self, Document, Size};
 use crate::error::{Flaw, Problem};
+use std::path::Path;
 
 /// A scene in an arithmetic, owned.
 #[derive(Debug)]
@@ -27,6 +30,7 @@ pub struct Baked<A: Construct> {
     pub placement: Placement,
     placed: Document,
     shapes: Shapes<A>,
+    groups: Groups<A>,
     materials: Vec<Material<A>>,
     lights: Vec<Light<A>>,
     ambient: Ambient<A>,
@@ -55,7 +59,13 @@ impl<A: Construct> Baked<A> {
         };
         let baked = Self {
             placement,
-            shapes: Shapes::new(&placed, thrift)?,
+            shapes: Shapes::new(
+                &placed.shapes,
+                placed.bounds(),
+                |i| placed.file_of_shape(i),
+                thrift,
+            )?,
+            groups: Groups::new(&placed, thrift)?,
             materials: materials(&placed)?,
             lights: lights(&placed)?,
             ambient: A::new_ambient(placed.ambient)
@@ -63,17 +73,20 @@ impl<A: Construct> Baked<A> {
             background: background.map_err(|e| refused::<A>("the background", e, None))?,
             placed,
         };
-        baked.scene()?;
+        baked.with_scene(|_| ())?;
         Ok(baked)
     }
 
-    /// The scene, borrowed as the core wants it.
+    /// Does something with the scene, borrowed as the core wants it.
     ///
     /// # Errors
     /// None that [`new`](Self::new) hasn't seen.
-    pub fn scene(&self) -> Result<Scene<'_, A>, Flaw> {
+    pub fn with_scene<T>(&self, then: impl FnOnce(&Scene<'_, A>) -> T) -> Result<T, Flaw> {
         let rules = &self.placed.rules;
-        A::new_scene(Parts {
+        let groups = self.groups.groups()?;
+        let instances = self.groups.instances(&groups)?;
+        let scene: Result<Scene<'_, A>, _> = A::new_scene(Parts {
+            instances: &instances,
             materials: &self.materials,
             lights: &self.lights,
             ambient: self.ambient,
@@ -86,8 +99,8 @@ impl<A: Construct> Baked<A> {
                 ..A::rules_with_cutoff(rules.cutoff)
             },
             ..self.shapes.parts()?
-        })
-        .map_err(|error| {
+        });
+        scene.map(|scene| then(&scene)).map_err(|error| {
             let why = error.to_string();
             Problem::Unrepresentable { what: "the scene".into(), why }.anywhere()
         })
@@ -102,14 +115,32 @@ impl<A: Construct> Baked<A> {
         A::new_camera(eye, at, up, tangent).map_err(|error| refused::<A>("the camera", error, None))
     }
 
-    /// The document's index of the shape that has this number in the core's scene.
-    pub fn origin(&self, shape: u32) -> Option<usize> {
-        self.shapes.origin(shape)
+    /// The document's shape that has this number in the core's scene, and the file that it came
+    /// from if it isn't the document's own.
+    pub fn origin(&self, number: u32) -> Option<(&document::Shape, Option<&Path>)> {
+        let document = &self.placed;
+        let own = |i: usize| Some((document.shapes.get(i)?, document.file_of_shape(i)));
+        let beyond = match self.shapes.origin(number) {
+            Ok(index) => return own(index),
+            Err(beyond) => beyond,
+        };
+        match self.groups.origin(beyond) {
+            Ok((group, index)) => {
+                let shape = document.groups.get(group)?.shapes.get(index)?;
+                Some((shape, document.file_of_group(group)))
+            }
+            Err(beyond) => own(self.shapes.plane_origin(beyond)?),
+        }
     }
 
     /// Words and levels of the octree; `None` for scenes so small that they have none.
     pub fn tree(&self) -> Option<(usize, u8)> {
         self.shapes.tree()
+    }
+
+    /// Words of the octrees of all groups.
+    pub fn group_tree_words(&self) -> usize {
+        self.groups.tree_words()
     }
 
     /// The document as it was placed.

@@ -14,7 +14,8 @@
 //!   nearer would change directions by as much as it gains range, so that is never done.
 
 use crate::document::{
-    Background, Body, Camera, Document, Falloff, Light, LightKind, Point, length, scaled, sub,
+    Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, length, scaled,
+    sub,
 };
 
 /// The farthest a light or the camera may lie along an axis: the range is ±1024, and a
@@ -28,6 +29,10 @@ const WITH_PLANES_REACH: f64 = 16.0;
 /// The sine of the angle under which a far light may see the scene's radius and be called
 /// directional: 2⁻¹², a sixteenth of a grey level at the steepest.
 const PARALLEL: f64 = 1.0 / 4096.0;
+
+/// A group's space may be 2 to this larger than the scene's: the core's scales reach a little
+/// farther.
+const LARGER: i32 = 9;
 
 /// Where a scene lies in its arithmetic: p becomes (p − center)·2^log2_scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,9 +94,9 @@ impl Placement {
         }
         let Camera { eye, look_at, .. } = &mut placed.camera;
         (*eye, *look_at) = (self.point(*eye), self.point(*look_at));
-        for checker in placed.materials.iter_mut().filter_map(|m| m.checker.as_mut()) {
-            checker.cell = scaled(checker.cell, self.scale());
-            checker.offset = self.point(checker.offset);
+        placed.materials.iter_mut().for_each(|material| self.material(material));
+        for index in 0..document.groups.len() {
+            self.group(document, index, &mut placed);
         }
         for shape in &mut placed.shapes {
             self.body(&mut shape.body);
@@ -105,6 +110,62 @@ impl Placement {
             Background::Color(_) | Background::Gradient { .. } => {}
         }
         placed
+    }
+
+    fn material(&self, material: &mut Material) {
+        if let Some(checker) = &mut material.checker {
+            checker.cell = scaled(checker.cell, self.scale());
+            checker.offset = self.point(checker.offset);
+            // Twice a cell further on it looks the same; far away it is out of range.
+            for (offset, cell) in checker.offset.iter_mut().zip(checker.cell) {
+                if offset.abs() > 512.0 {
+                    *offset = if cell > 0.0 { offset.rem_euclid(2.0 * cell) } else { 0.0 };
+                }
+            }
+        }
+    }
+
+    /// Places a group so that it fills the range of its own space, and its instances. Materials
+    /// with patterns, which lie in that space, become materials of the group's own.
+    fn group(&self, document: &Document, index: usize, placed: &mut Document) {
+        let Some(group) = document.groups.get(index) else { return };
+        let Some(bounds) = group.bounds() else { return };
+        let instances = || document.instances.iter().filter(|i| i.group == index);
+        let scales = instances().filter_map(|i| i.place.uniform_scale());
+        let least = scales.fold(f64::MAX, f64::min);
+        let half = (bounds.side() / 2.0).max(f64::MIN_POSITIVE);
+        let log2_scale =
+            power_below(SHAPES_REACH / half).min(self.log2_scale + power_below(least) + LARGER);
+        let scale = 2f64.powi(log2_scale);
+        let center = bounds.center().map(|x| (x * scale).round() / scale);
+        let space = Self { center, log2_scale };
+
+        let mut own: Vec<(usize, usize)> = Vec::new();
+        let mut material = |materials: &mut Vec<Material>, old: usize| {
+            if let Some((_, new)) = own.iter().find(|(known, _)| *known == old) {
+                return *new;
+            }
+            let Some(original) = document.materials.get(old) else { return old };
+            let mut here = original.clone();
+            space.material(&mut here);
+            if materials.get(old).is_some_and(|there| *there == here) {
+                return old;
+            }
+            materials.push(here);
+            own.push((old, materials.len() - 1));
+            materials.len() - 1
+        };
+        for shape in placed.groups.iter_mut().skip(index).take(1).flat_map(|g| &mut g.shapes) {
+            space.body(&mut shape.body);
+            shape.rename(&mut |old| material(&mut placed.materials, old));
+        }
+        let ratio = self.scale() / scale;
+        for instance in placed.instances.iter_mut().filter(|i| i.group == index) {
+            let place = &mut instance.place;
+            place.offset = self.point(place.point(center));
+            place.columns = place.columns.map(|column| scaled(column, ratio));
+            instance.material = instance.material.map(|old| material(&mut placed.materials, old));
+        }
     }
 
     fn light(&self, light: &mut Light, center: Point, radius: f64) {
@@ -147,16 +208,19 @@ impl Placement {
                 *corners = corners.map(|c| self.point(c));
             }
             Body::Polygon { corners } => corners.iter_mut().for_each(|c| *c = self.point(*c)),
-            Body::Cylinder { base, apex, radius } => {
+            Body::Cylinder { base, apex, radius, .. } => {
                 *base = self.point(*base);
                 *apex = self.point(*apex);
                 *radius *= s;
             }
-            Body::Cone { base, base_radius, apex, apex_radius } => {
+            Body::Cone { base, base_radius, apex, apex_radius, .. } => {
                 *base = self.point(*base);
                 *apex = self.point(*apex);
                 *base_radius *= s;
                 *apex_radius *= s;
+            }
+            Body::Solid(solid) => {
+                solid.operands.iter_mut().for_each(|operand| self.body(&mut operand.body));
             }
         }
     }

@@ -3,13 +3,14 @@
 use whitted::octree::{BuildError, Built, Cube, Extent, Limits, Octree, build_into};
 use whitted::scene::Parts;
 use whitted::shape::{
-    Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
-    Triangle,
+    Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
+    SmoothTriangle, Solid, Sphere, Triangle,
 };
 
 use super::Construct;
-use crate::document::{Body, Document, dot, normalized};
+use crate::document::{Body, Bounds, Made, Shape, dot, normalized};
 use crate::error::{Flaw, Problem};
+use std::path::Path;
 
 /// Below this a list is quicker than a tree.
 const LEAST_FOR_A_TREE: usize = 10;
@@ -70,6 +71,8 @@ pub(super) struct Shapes<A: Construct> {
     discs: Kind<Disc<A>>,
     cylinders: Kind<Cylinder<A>>,
     cones: Kind<Cone<A>>,
+    solids: Kind<Solid<A>>,
+    operands: Vec<Operand<A>>,
     planes: Kind<Plane<A>>,
     log2_step: i8,
     tree: Option<Tree>,
@@ -110,12 +113,22 @@ macro_rules! bounded {
             let $kind = &$self.cones;
             $one
         }
+        {
+            let $kind = &$self.solids;
+            $one
+        }
     }};
 }
 
 impl<A: Construct> Shapes<A> {
-    /// Makes all shapes of a document that has been placed, and the tree.
-    pub(super) fn new(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
+    /// Makes shapes that have been placed and lie within the bounds, and the tree; `file` names
+    /// the file that one came from.
+    pub(super) fn new<'f>(
+        all: &[Shape],
+        bounds: Option<Bounds>,
+        file: impl Fn(usize) -> Option<&'f Path>,
+        thrift: Thrift,
+    ) -> Result<Self, Flaw> {
         let mut shapes = Self {
             spheres: Kind::default(),
             triangles: Kind::default(),
@@ -126,12 +139,14 @@ impl<A: Construct> Shapes<A> {
             discs: Kind::default(),
             cylinders: Kind::default(),
             cones: Kind::default(),
+            solids: Kind::default(),
+            operands: Vec::new(),
             planes: Kind::default(),
-            log2_step: step(document),
+            log2_step: step(bounds),
             tree: None,
         };
-        for (index, shape) in document.shapes.iter().enumerate() {
-            let from = document.file_of_shape(index);
+        for (index, shape) in all.iter().enumerate() {
+            let from = file(index);
             let refuse =
                 |e| super::refused::<A>(shape.body.name(), e, Some(shape.line)).within(from);
             let material = u16::try_from(shape.material).map_err(|_| refuse(ShapeError::Material));
@@ -175,13 +190,24 @@ impl<A: Construct> Shapes<A> {
                 self.edges.extend(edges);
                 self.polygons.add(made, Some(A::polygon_extent(corners, step)), index);
             }
-            Body::Cylinder { base, apex, radius } => {
+            Body::Cylinder { base, apex, radius, capped } => {
                 let made = A::new_cylinder(*base, *apex, *radius, material)?;
+                let made = if *capped { made.with_caps() } else { made };
                 self.cylinders.add(made, Some(A::cylinder_extent(&made, step)), index);
             }
-            Body::Cone { base, base_radius, apex, apex_radius } => {
+            Body::Cone { base, base_radius, apex, apex_radius, capped } => {
                 let made = A::new_cone(*base, *base_radius, *apex, *apex_radius, material)?;
+                let made = if *capped { made.with_caps() } else { made };
                 self.cones.add(made, Some(A::cone_extent(&made, step)), index);
+            }
+            Body::Solid(solid) => {
+                let first = self.operands.len() as u32;
+                for shape in &solid.operands {
+                    self.operands.push(operand(shape)?);
+                }
+                let count = u8::try_from(solid.operands.len()).unwrap_or(u8::MAX);
+                let made = A::new_solid(region(&solid.made), &self.operands, first, count)?;
+                self.solids.add(made, Some(A::solid_extent(&made, step)), index);
             }
         }
         Ok(())
@@ -215,8 +241,7 @@ impl<A: Construct> Shapes<A> {
     pub(super) fn parts(&self) -> Result<Parts<'_, A>, Flaw> {
         let tree = |t| {
             let t: &Tree = t;
-            let mut shapes = 0;
-            bounded!(self, kind => shapes += kind.shapes.len());
+            let shapes = self.bounded() as usize;
             let tree: Result<Octree<'_, A>, _> =
                 A::new_octree(&t.words, shapes, &t.cube, self.log2_step);
             tree.map_err(|error| unfit(&error))
@@ -231,22 +256,37 @@ impl<A: Construct> Shapes<A> {
             discs: &self.discs.shapes,
             cylinders: &self.cylinders.shapes,
             cones: &self.cones.shapes,
+            solids: &self.solids.shapes,
+            operands: &self.operands,
             planes: &self.planes.shapes,
             tree: self.tree.as_ref().map(tree).transpose()?,
             ..Parts::EMPTY
         })
     }
 
-    /// The document's index of the shape of this number.
-    pub(super) fn origin(&self, shape: u32) -> Option<usize> {
+    /// How many there are besides planes.
+    pub(super) fn bounded(&self) -> u32 {
+        let mut count = 0;
+        bounded!(self, kind => count += kind.shapes.len());
+        count as u32
+    }
+
+    /// The document's index of the plane that is the `n`th.
+    pub(super) fn plane_origin(&self, n: u32) -> Option<usize> {
+        self.planes.origins.get(n as usize).copied()
+    }
+
+    /// The document's index of the bounded shape of this number; how far it lies beyond the last
+    /// one, if it does.
+    pub(super) fn origin(&self, shape: u32) -> Result<usize, u32> {
         let mut left = shape as usize;
         bounded!(self, kind => {
             if let Some(&origin) = kind.origins.get(left) {
-                return Some(origin);
+                return Ok(origin);
             }
             left -= kind.origins.len();
         });
-        self.planes.origins.get(left).copied()
+        Err(left as u32)
     }
 
     /// The tree's words, its cube, and the step of its grid, if there is a tree.
@@ -279,14 +319,48 @@ fn build(extents: &[Extent], limits: Limits) -> Result<Tree, Flaw> {
     }
 }
 
+fn operand<A: Construct>(shape: &Shape) -> Result<Operand<A>, ShapeError> {
+    let material = u16::try_from(shape.material).map_err(|_| ShapeError::Material)?;
+    Ok(match &shape.body {
+        Body::Sphere { center, radius } => {
+            Operand::Sphere(A::new_sphere(*center, radius.abs(), material)?)
+        }
+        Body::Box { low, high } => Operand::Cuboid(A::new_cuboid(*low, *high, material)?),
+        Body::Cylinder { base, apex, radius, .. } => {
+            Operand::Cylinder(A::new_cylinder(*base, *apex, radius.abs(), material)?)
+        }
+        Body::Cone { base, base_radius, apex, apex_radius, .. } => {
+            let (r, q) = (base_radius.abs(), apex_radius.abs());
+            Operand::Cone(A::new_cone(*base, r, *apex, q, material)?)
+        }
+        Body::Plane { point, normal } => {
+            let offset = normalized(*normal).map_or(0.0, |n| dot(n, *point));
+            Operand::HalfSpace(A::new_plane(*normal, offset, material)?)
+        }
+        _ => return Err(ShapeError::Operands),
+    })
+}
+
+fn region(made: &Made) -> Region {
+    let all = |parts: &[Made], with: fn(Region, Region) -> Region| {
+        parts.iter().map(region).reduce(with).unwrap_or(Region::NOTHING)
+    };
+    match made {
+        Made::Of(index) => Region::of(*index),
+        Made::Union(parts) => all(parts, Region::or),
+        Made::Intersection(parts) => all(parts, Region::and),
+        Made::Difference(parts) => all(parts, Region::minus),
+    }
+}
+
 fn unfit(error: &dyn std::error::Error) -> Flaw {
     let (what, why) = ("the octree".to_string(), error.to_string());
     Problem::Unrepresentable { what, why }.anywhere()
 }
 
 /// The grid that floating-point octrees are built on: its farthest coordinate is 2²⁵ to 2²⁶.
-fn step(document: &Document) -> i8 {
-    let Some(bounds) = document.bounds() else { return -26 };
+fn step(bounds: Option<Bounds>) -> i8 {
+    let Some(bounds) = bounds else { return -26 };
     let coordinates = bounds.low.into_iter().chain(bounds.high);
     let farthest = coordinates.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
     (farthest.log2().ceil() as i32 - 26).clamp(-80, 60) as i8

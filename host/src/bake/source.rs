@@ -126,18 +126,25 @@ impl<A: Construct> Baked<A> {
                 Body::Disc { center, normal, radius } => {
                     (5, format!("{center:?}, {normal:?}, {radius:?}"))
                 }
-                Body::Cylinder { base, apex, radius } => {
+                Body::Cylinder { base, apex, radius, .. } => {
                     (6, format!("{base:?}, {apex:?}, {radius:?}"))
                 }
-                Body::Cone { base, base_radius, apex, apex_radius } => {
+                Body::Cone { base, base_radius, apex, apex_radius, .. } => {
                     (7, format!("{base:?}, {base_radius:?}, {apex:?}, {apex_radius:?}"))
                 }
+                // Refused before.
+                Body::Solid(_) => continue,
                 Body::Plane { point, normal } => {
                     (8, format!("{normal:?}, {:?}", offset(*point, *normal)))
                 }
             };
             let (_, _, name) = KINDS[kind];
-            lists[kind].push(format!("whitted::shape::{name}::<A>::new({arguments}, {m})"));
+            let capped = matches!(
+                shape.body,
+                Body::Cylinder { capped: true, .. } | Body::Cone { capped: true, .. }
+            );
+            let caps = if capped { ".with_caps()" } else { "" };
+            lists[kind].push(format!("whitted::shape::{name}::<A>::new({arguments}, {m}){caps}"));
         }
         to.push_str(&corners);
         let mut written = Vec::new();

@@ -21,6 +21,10 @@ pub(super) fn run(file: &Path, quiet: bool) -> Result<(), Failure> {
     let shapes: Vec<String> =
         document.census().iter().map(|(name, count)| plural(*count, name)).collect();
     line("shapes", format_args!("{} ({})", document.shapes.len(), shapes.join(", ")))?;
+    if !document.instances.is_empty() {
+        let (instances, groups) = (document.instances.len(), document.groups.len());
+        line("instances", format_args!("{instances} of {}", plural(groups, "group")))?;
+    }
     line("materials", format_args!("{}", document.materials.len()))?;
     let lights: Vec<&str> = document.lights.iter().map(|light| light.name()).collect();
     line("lights", format_args!("{} {}", lights.len(), listed(&lights)))?;

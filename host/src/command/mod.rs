@@ -14,7 +14,6 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitted_host::document::Size;
 use whitted_host::error::SceneError;
-use whitted_host::render::Sampling;
 use whitted_host::show::Show;
 
 /// Classic ray tracing for microcontrollers, on the host: renders, checks and explains scenes.
@@ -67,28 +66,6 @@ enum Arith {
     F32,
     /// Double precision, the reference
     F64,
-}
-
-/// Reads `center`, `corners`, `grid:N` and `jittered:N[:SEED]`.
-fn sampling(text: &str) -> Result<Sampling, String> {
-    let mut parts = text.split(':');
-    let name = parts.next().unwrap_or_default();
-    let numbers: Vec<&str> = parts.collect();
-    let side = |text: &str| match text.parse() {
-        Ok(side @ 1..=8) => Ok(side),
-        _ => Err(format!("{text:?} isn't a number of cells each way, 1 to 8")),
-    };
-    match (name, numbers.as_slice()) {
-        ("center", []) => Ok(Sampling::Center),
-        ("corners", []) => Ok(Sampling::Corners),
-        ("grid", [n]) => Ok(Sampling::Grid { side: side(n)? }),
-        ("jittered", [n]) => Ok(Sampling::Jittered { side: side(n)?, seed: 0 }),
-        ("jittered", [n, seed]) => {
-            let wrong = |_| format!("{seed:?} isn't a seed, 0 to 65535");
-            Ok(Sampling::Jittered { side: side(n)?, seed: seed.parse().map_err(wrong)? })
-        }
-        _ => Err("it is center, corners, grid:N or jittered:N[:SEED], N from 1 to 8".into()),
-    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]

@@ -11,13 +11,17 @@ use whitted_host::document::{Document, Size};
 use whitted_host::error::Flaw;
 use whitted_host::picture::{Picture, save};
 use whitted_host::read;
-use whitted_host::render::{Rendered, Sampling, Settings, render};
+use whitted_host::render::{Progress, Rendered, Sampling, Settings, render, render_until};
+use whitted_host::sampling;
 use whitted_host::stats::{Seconds, Stats};
 
 use super::{Arith, Failure, ShowName, With, print, progress, warn};
 
 /// How large a picture is if neither the command nor the scene says.
 pub(super) const SIZE: Size = Size { width: 320, height: 240 };
+
+/// The blocks that a picture from coarse to fine begins with.
+const FIRST_BLOCKS: u8 = 16;
 
 const SHOWCASE: &str = include_str!("../../scenes/showcase.toml");
 
@@ -30,10 +34,16 @@ pub(super) struct Options {
     out: Option<PathBuf>,
     #[command(flatten)]
     with: With,
-    /// Where in a pixel rays go: center (one ray), corners (one through each pixel corner, four
-    /// averaged), grid:N (N×N rays, 1 to 8), jittered:N[:SEED] (moved at random)
-    #[arg(long, value_name = "HOW", default_value = "center", value_parser = super::sampling)]
-    sampling: Sampling,
+    /// Where rays go: center (one through each pixel), corners (one through each pixel corner, four
+    /// averaged), grid:N (N×N a pixel, 1 to 8), jittered:N[:SEED] (moved at random),
+    /// adaptive[:DEPTH[:THRESHOLD]] (more where the picture changes), sparse[:SIDE[:THRESHOLD]] (fewer
+    /// where it doesn't) [default: the scene's, or center]
+    #[arg(long, value_name = "HOW", value_parser = sampling::parse)]
+    sampling: Option<Sampling>,
+    /// Draw from coarse to fine, stop after this many rays of all kinds, and save what a display would
+    /// show then
+    #[arg(long, value_name = "RAYS", conflicts_with_all = ["show", "threads"])]
+    deadline: Option<u64>,
     /// How many threads trace; the picture is the same for any number [default: one for each core]
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -65,7 +75,8 @@ pub(super) fn showcase(quiet: bool) -> Result<(), Failure> {
         scene: file.clone(),
         out: None,
         with: With { size: None, arith: Arith::F64, depth: None },
-        sampling: Sampling::Center,
+        sampling: None,
+        deadline: None,
         threads: None,
         stats: None,
         show: None,
@@ -84,17 +95,17 @@ fn paint(
     let settings = Settings {
         size: options.with.size.or(document.size).unwrap_or(SIZE),
         depth: options.with.depth.unwrap_or(document.rules.depth),
-        sampling: options.sampling,
+        sampling: options.sampling.unwrap_or(document.rules.sampling),
         show: options.show.map(Into::into),
         threads: options
             .threads
             .or_else(|| std::thread::available_parallelism().ok())
             .unwrap_or(NonZeroUsize::MIN),
     };
-    let (rendered, arithmetic, build) = match options.with.arith {
-        Arith::Fixed => paint_in::<Fixed>(document, &settings, quiet),
-        Arith::F32 => paint_in::<f32>(document, &settings, quiet),
-        Arith::F64 => paint_in::<f64>(document, &settings, quiet),
+    let Painted { rendered, arithmetic, build, note } = match options.with.arith {
+        Arith::Fixed => paint_in::<Fixed>(document, &settings, options.deadline, quiet),
+        Arith::F32 => paint_in::<f32>(document, &settings, options.deadline, quiet),
+        Arith::F64 => paint_in::<f64>(document, &settings, options.deadline, quiet),
     }
     .map_err(|flaw| flaw.of(file))?;
 
@@ -115,21 +126,47 @@ fn paint(
         print(format_args!("{}", preview(picture)))?;
     }
     report(&rendered, arithmetic, seconds)?;
+    print(format_args!("{note}"))?;
     print(format_args!("{}\n", out.display()))
+}
+
+/// A picture, what made it, how long it took to make the scene, and what else there is to say.
+struct Painted {
+    rendered: Rendered,
+    arithmetic: &'static str,
+    build: f64,
+    note: String,
 }
 
 fn paint_in<A: Construct>(
     document: &Document,
     settings: &Settings,
+    deadline: Option<u64>,
     quiet: bool,
-) -> Result<(Rendered, &'static str, f64), Flaw> {
+) -> Result<Painted, Flaw> {
     let start = Instant::now();
     let baked = Baked::<A>::new(document)?;
     let build = start.elapsed().as_secs_f64();
-    let bar = progress::bar(settings.size.height, quiet);
-    let rendered = render(&baked, settings, |row| bar.set_position(row.into()))?;
-    bar.finish_and_clear();
-    Ok((rendered, A::NAME, build))
+    let (rendered, note) = match deadline {
+        None => {
+            let bar = progress::bar(settings.size.height, quiet);
+            let rendered = render(&baked, settings, |row| bar.set_position(row.into()))?;
+            bar.finish_and_clear();
+            (rendered, String::new())
+        }
+        Some(rays) => {
+            let shown = render_until(&baked, settings, FIRST_BLOCKS, rays)?;
+            let note = match (shown.progress, shown.side) {
+                (Progress::Done, _) => "the picture is finished\n".into(),
+                (Progress::Interrupted, 0) => "the deadline came in the last pass\n".into(),
+                (Progress::Interrupted, side) => {
+                    format!("the deadline came in the pass of {side}x{side} blocks\n")
+                }
+            };
+            (shown.rendered, note)
+        }
+    };
+    Ok(Painted { rendered, arithmetic: A::NAME, build, note })
 }
 
 /// The picture, as large as the terminal lets it be with room for the text below.

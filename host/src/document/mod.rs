@@ -10,21 +10,25 @@
 
 mod background;
 mod camera;
+mod group;
 mod light;
 mod material;
 mod place;
 mod rules;
 mod shape;
+mod solid;
 mod transform;
 mod vector;
 
 pub use background::Background;
 pub use camera::{Camera, Span};
+pub use group::{Group, Instance};
 pub use light::{Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
 pub use rules::Rules;
 pub use shape::{Body, Shape};
+pub use solid::{Made, Solid};
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
 
@@ -82,6 +86,10 @@ pub struct Document {
     pub lights: Vec<Light>,
     /// The shapes, in the order of the file.
     pub shapes: Vec<Shape>,
+    /// Groups of shapes; instances name them by index.
+    pub groups: Vec<Group>,
+    /// Groups in the scene.
+    pub instances: Vec<Instance>,
     /// What the reader noticed.
     pub warnings: Vec<Warning>,
     /// What came from other files than the document's own.
@@ -100,12 +108,16 @@ pub struct Included {
     pub materials: Range<usize>,
     /// Its lights.
     pub lights: Range<usize>,
+    /// Its groups.
+    pub groups: Range<usize>,
 }
 
 impl Document {
     /// The box around all shapes that end; `None` where there are none.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.shapes.iter().filter_map(|shape| shape.body.bounds()).reduce(Bounds::union)
+        let shapes = self.shapes.iter().filter_map(|shape| shape.body.bounds());
+        let instances = self.instances.iter().filter_map(|instance| instance.bounds(self));
+        shapes.chain(instances).reduce(Bounds::union)
     }
 
     /// The file that a shape came from, if it isn't the document's own.
@@ -121,6 +133,11 @@ impl Document {
     /// The file that a light came from, if it isn't the document's own.
     pub fn file_of_light(&self, index: usize) -> Option<&Path> {
         self.file_where(|part| part.lights.contains(&index))
+    }
+
+    /// The file that a group came from, if it isn't the document's own.
+    pub fn file_of_group(&self, index: usize) -> Option<&Path> {
+        self.file_where(|part| part.groups.contains(&index))
     }
 
     fn file_where(&self, holds: impl Fn(&Included) -> bool) -> Option<&Path> {

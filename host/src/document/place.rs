@@ -15,6 +15,8 @@ const CIRCLE: Refusal =
     "it can't be scaled unevenly across its axis: a circle stays a circle (scale both sides alike)";
 const SHEARED: Refusal =
     "it can't be scaled unevenly at a slant to its axis: scale along the axis, or by one number";
+const TURNED: Refusal =
+    "a box within a solid stays along the axes: put the solid into a group and turn the instance";
 const LIT: Refusal = "a light can't be scaled unevenly (scale = one number)";
 
 impl Body {
@@ -52,19 +54,31 @@ impl Body {
                 normals: facing(normals.map(|n| by.normal(n)), by),
             },
             Self::Polygon { corners } => polygon(corners, by),
-            Self::Cylinder { base, apex, radius } => Self::Cylinder {
+            Self::Cylinder { base, apex, radius, capped } => Self::Cylinder {
+                capped: *capped,
                 base: by.point(*base),
                 apex: by.point(*apex),
                 radius: radius * around(by, *base, *apex)?,
             },
-            Self::Cone { base, base_radius, apex, apex_radius } => {
+            Self::Cone { base, base_radius, apex, apex_radius, capped } => {
                 let scale = around(by, *base, *apex)?;
                 Self::Cone {
                     base: by.point(*base),
                     base_radius: base_radius * scale,
                     apex: by.point(*apex),
                     apex_radius: apex_radius * scale,
+                    capped: *capped,
                 }
+            }
+            Self::Solid(solid) => {
+                let mut solid = solid.clone();
+                for operand in &mut solid.operands {
+                    operand.body = match operand.body.placed(by)?.as_slice() {
+                        [one] => one.clone(),
+                        _ => return Err(TURNED),
+                    };
+                }
+                Self::Solid(solid)
             }
         }])
     }
@@ -145,7 +159,7 @@ pub struct Misplaced {
 }
 
 impl Document {
-    /// Adds the materials of another file's document, and its shapes and lights once for each
+    /// Adds the materials and groups of another file's document, and its shapes, instances and lights once for each
     /// transform. Where and how the other is seen doesn't count here.
     ///
     /// # Errors
@@ -163,13 +177,21 @@ impl Document {
         }
         self.materials.append(&mut materials);
         // Files that the other file includes keep their names; in a copy they lie further on.
-        let part = |shapes, materials, lights, file: &Path| Included {
+        let part = |shapes, materials, lights, groups, file: &Path| Included {
             file: file.to_owned(),
             shapes,
             materials,
             lights,
+            groups,
         };
         let materials = first..self.materials.len();
+        let first_group = self.groups.len();
+        for group in &other.groups {
+            let mut group = group.clone();
+            group.shapes.iter_mut().for_each(|shape| shape.rename(&mut |index| index + first));
+            self.groups.push(group);
+        }
+        let groups = first_group..self.groups.len();
         for by in copies {
             let (shapes, lights) = (self.shapes.len(), self.lights.len());
             // Where each of the other's shapes went: one may have become several.
@@ -178,8 +200,9 @@ impl Document {
                 went.push(self.shapes.len());
                 let misplaced = |why| Misplaced { what: shape.body.name(), line: shape.line, why };
                 for body in shape.body.placed(by).map_err(misplaced)? {
-                    let material = shape.material + first;
-                    self.shapes.push(super::Shape { body, material, line: shape.line });
+                    let mut placed = super::Shape { body, ..shape.clone() };
+                    placed.rename(&mut |index| index + first);
+                    self.shapes.push(placed);
                 }
             }
             went.push(self.shapes.len());
@@ -187,14 +210,24 @@ impl Document {
                 let misplaced = |why| Misplaced { what: "light", line: light.line, why };
                 self.lights.push(light.placed(by).map_err(misplaced)?);
             }
+            for instance in &other.instances {
+                let place = instance.place.then(by);
+                if let Some(why) = super::Instance::flaw(&place) {
+                    return Err(Misplaced { what: "instance", line: instance.line, why });
+                }
+                let material = instance.material.map(|material| material + first);
+                let group = instance.group + first_group;
+                self.instances.push(super::Instance { group, place, material, ..*instance });
+            }
             let all = (shapes..self.shapes.len(), lights..self.lights.len());
-            self.included.push(part(all.0, materials.clone(), all.1, file));
+            self.included.push(part(all.0, materials.clone(), all.1, groups.clone(), file));
             for inner in &other.included {
                 let place = |i: usize| went.get(i).copied().unwrap_or(self.shapes.len());
                 self.included.push(part(
                     place(inner.shapes.start)..place(inner.shapes.end),
                     inner.materials.start + first..inner.materials.end + first,
                     inner.lights.start + lights..inner.lights.end + lights,
+                    inner.groups.start + first_group..inner.groups.end + first_group,
                     &inner.file,
                 ));
             }
@@ -237,12 +270,12 @@ mod tests {
     fn what_can_be_pressed_flat() {
         let by = Transform::scaled([1.0, 3.0, 1.0]);
         let (base, apex) = ([0.0; 3], [0.0, 1.0, 0.0]);
-        let tube = Body::Cylinder { base, apex, radius: 2.0 };
-        let longer = Body::Cylinder { base, apex: [0.0, 3.0, 0.0], radius: 2.0 };
+        let tube = Body::Cylinder { base, apex, radius: 2.0, capped: false };
+        let longer = Body::Cylinder { base, apex: [0.0, 3.0, 0.0], radius: 2.0, capped: false };
         assert_eq!(tube.placed(&by), Ok(vec![longer]));
-        let lying = Body::Cylinder { base, apex: [1.0, 0.0, 0.0], radius: 2.0 };
+        let lying = Body::Cylinder { base, apex: [1.0, 0.0, 0.0], radius: 2.0, capped: true };
         assert_eq!(lying.placed(&by), Err(CIRCLE));
-        let slanting = Body::Cylinder { base, apex: [1.0, 1.0, 0.0], radius: 2.0 };
+        let slanting = Body::Cylinder { base, apex: [1.0, 1.0, 0.0], radius: 2.0, capped: true };
         assert_eq!(slanting.placed(&by), Err(SHEARED));
         let ball = Body::Sphere { center: apex, radius: -2.0 };
         assert_eq!(ball.placed(&by), Err(ROUND));

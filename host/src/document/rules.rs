@@ -1,5 +1,7 @@
 //! What the classic programs differ in; a scene says which it means.
 
+use whitted::frame::Sampling;
+
 use super::Falloff;
 
 /// The switches of the model.
@@ -19,6 +21,8 @@ pub struct Rules {
     pub cutoff: f64,
     /// The largest depth; the ray from the eye has depth 1.
     pub depth: u8,
+    /// Where in a pixel rays go, unless the command says.
+    pub sampling: Sampling,
 }
 
 impl Rules {
@@ -34,6 +38,7 @@ impl Rules {
         lossy_total_reflection: false,
         cutoff: 1.0 / 255.0,
         depth: 5,
+        sampling: Sampling::Center,
     };
 
     /// What a file in Neutral File Format means.
@@ -45,5 +50,6 @@ impl Rules {
         lossy_total_reflection: false,
         cutoff: 0.0,
         depth: 5,
+        sampling: Sampling::Center,
     };
 }

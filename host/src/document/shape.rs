@@ -1,6 +1,6 @@
 //! Shapes.
 
-use super::{Bounds, Point, add, cross, length, scaled, sub};
+use super::{Bounds, Point, Solid, add, cross, length, scaled, sub};
 
 /// A shape: its geometry and its material.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,18 @@ pub struct Shape {
     pub material: usize,
     /// The line of the file that it starts on.
     pub line: usize,
+}
+
+impl Shape {
+    /// Gives every material another index.
+    pub fn rename(&mut self, index: &mut impl FnMut(usize) -> usize) {
+        self.material = index(self.material);
+        if let Body::Solid(solid) = &mut self.body {
+            for operand in &mut solid.operands {
+                operand.material = index(operand.material);
+            }
+        }
+    }
 }
 
 /// The geometry of a shape.
@@ -63,7 +75,7 @@ pub enum Body {
         /// Its corners, four or more.
         corners: Vec<Point>,
     },
-    /// A cylinder without caps; a negative radius shows the inside alone.
+    /// A cylinder; a negative radius shows the inside alone.
     Cylinder {
         /// One end of the axis.
         base: Point,
@@ -71,8 +83,10 @@ pub enum Body {
         apex: Point,
         /// Its radius.
         radius: f64,
+        /// Whether discs close it.
+        capped: bool,
     },
-    /// A cone, whole or cut, without caps; negative radii show the inside alone.
+    /// A cone, whole or cut; negative radii show the inside alone.
     Cone {
         /// One end of the axis.
         base: Point,
@@ -82,7 +96,11 @@ pub enum Body {
         apex: Point,
         /// The radius there, 0 for a whole cone.
         apex_radius: f64,
+        /// Whether discs close it.
+        capped: bool,
     },
+    /// Closed shapes united, intersected, taken from each other.
+    Solid(Solid),
 }
 
 impl Body {
@@ -98,6 +116,7 @@ impl Body {
             Self::Polygon { .. } => "polygon",
             Self::Cylinder { .. } => "cylinder",
             Self::Cone { .. } => "cone",
+            Self::Solid(_) => "solid",
         }
     }
 
@@ -112,14 +131,15 @@ impl Body {
                 Bounds::around(corners)
             }
             Self::Polygon { corners } => Bounds::around(corners),
-            Self::Cylinder { base, apex, radius } => {
+            Self::Cylinder { base, apex, radius, .. } => {
                 let axis = sub(*apex, *base);
                 Some(ring(*base, axis, *radius).union(ring(*apex, axis, *radius)))
             }
-            Self::Cone { base, base_radius, apex, apex_radius } => {
+            Self::Cone { base, base_radius, apex, apex_radius, .. } => {
                 let axis = sub(*apex, *base);
                 Some(ring(*base, axis, *base_radius).union(ring(*apex, axis, *apex_radius)))
             }
+            Self::Solid(solid) => solid.bounds(),
         }
     }
 
@@ -142,13 +162,13 @@ impl Body {
             }
             // Its maker, `polygon::split`, has looked.
             Self::Polygon { .. } => None,
-            Self::Cylinder { base, apex, radius } => {
+            Self::Cylinder { base, apex, radius, .. } => {
                 if *radius == 0.0 {
                     return Some("its radius is 0: it must be another number");
                 }
                 null(sub(*apex, *base)).map(|_| "its two ends are one point")
             }
-            Self::Cone { base, base_radius, apex, apex_radius } => {
+            Self::Cone { base, base_radius, apex, apex_radius, .. } => {
                 if *base_radius == 0.0 && *apex_radius == 0.0 {
                     return Some("both its radii are 0: one must be another number");
                 }
@@ -157,6 +177,8 @@ impl Body {
                 }
                 null(sub(*apex, *base)).map(|_| "its two ends are one point")
             }
+            // Its reader has looked at the parts.
+            Self::Solid(_) => None,
         }
     }
 }

@@ -69,6 +69,18 @@ impl Bounds {
         }
     }
 
+    /// The box that both have in common, if they meet.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        let with = |pick: fn(f64, f64) -> f64, a: Point, b: Point| {
+            [pick(a[0], b[0]), pick(a[1], b[1]), pick(a[2], b[2])]
+        };
+        Self {
+            low: with(f64::max, self.low, other.low),
+            high: with(f64::min, self.high, other.high),
+        }
+    }
+
     /// Its middle.
     pub fn center(&self) -> Point {
         scaled(add(self.low, self.high), 0.5)

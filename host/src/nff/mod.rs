@@ -161,9 +161,9 @@ impl Reader<'_> {
         let apex = self.tokens.point("cone apex")?;
         let apex_radius = self.tokens.number_in("cone apex radius", -FARTHEST, FARTHEST)?;
         let body = if base_radius == apex_radius {
-            Body::Cylinder { base, apex, radius: base_radius }
+            Body::Cylinder { base, apex, radius: base_radius, capped: false }
         } else {
-            Body::Cone { base, base_radius, apex, apex_radius }
+            Body::Cone { base, base_radius, apex, apex_radius, capped: false }
         };
         self.shape(body, line)
     }
@@ -211,6 +211,8 @@ impl Reader<'_> {
             lights: lights.collect(),
             materials: self.materials,
             shapes: self.shapes,
+            groups: Vec::new(),
+            instances: Vec::new(),
             warnings: self.warnings,
             included: Vec::new(),
         })

@@ -324,6 +324,8 @@ impl<'a> Reader<'a> {
             materials: self.materials,
             lights: Vec::new(),
             shapes,
+            groups: Vec::new(),
+            instances: Vec::new(),
             warnings,
             included: Vec::new(),
         };

@@ -80,16 +80,18 @@ fn polygon(table: &Table<'_>) -> Result<Vec<Body>, Flaw> {
 
 fn cylinder(table: &Table<'_>) -> Result<Vec<Body>, Flaw> {
     let (base, apex) = (point(table, "base")?, point(table, "apex")?);
-    Ok(vec![Body::Cylinder { base, apex, radius: signed(table, "radius")? }])
+    let (radius, capped) = (signed(table, "radius")?, table.flag("caps", false)?);
+    Ok(vec![Body::Cylinder { base, apex, radius, capped }])
 }
 
 fn cone(table: &Table<'_>) -> Result<Vec<Body>, Flaw> {
     let (base, apex) = (point(table, "base")?, point(table, "apex")?);
     let base_radius = signed(table, "base_radius")?;
     let apex_radius = table.number("apex_radius", -FARTHEST..FARTHEST, 0.0)?;
+    let capped = table.flag("caps", false)?;
     Ok(vec![if base_radius == apex_radius {
-        Body::Cylinder { base, apex, radius: base_radius }
+        Body::Cylinder { base, apex, radius: base_radius, capped }
     } else {
-        Body::Cone { base, base_radius, apex, apex_radius }
+        Body::Cone { base, base_radius, apex, apex_radius, capped }
     }])
 }

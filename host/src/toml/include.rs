@@ -97,6 +97,11 @@ fn one<'d>(
 }
 
 impl Part {
+    /// What its groups are called.
+    pub(super) fn groups(&self) -> Vec<&str> {
+        self.document.groups.iter().map(|group| group.name.as_str()).collect()
+    }
+
     /// Adds the part's materials, shapes and lights to the scene.
     pub(super) fn place(&self, into: &mut Document) -> Result<(), Flaw> {
         let (file, line) = (self.around.path(), self.line);

@@ -1,10 +1,12 @@
 //! Our own scene format, in TOML: all that the model has (described in `docs/scene-format.md`).
 
 mod body;
+mod group;
 mod include;
 mod light;
 mod material;
 mod place;
+mod solid;
 mod table;
 
 use toml::de::DeTable;
@@ -14,6 +16,9 @@ use crate::document::{
 };
 use crate::error::{Flaw, Problem};
 use crate::read::Around;
+use crate::render::Sampling;
+use crate::sampling;
+use group::Groups;
 use material::Names;
 use table::{Lines, Table, Value};
 
@@ -59,51 +64,83 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
         materials: names.own().to_vec(),
         lights,
         shapes: Vec::new(),
+        groups: Vec::new(),
+        instances: Vec::new(),
         warnings: Vec::new(),
         included: Vec::new(),
     };
     let included = include::all(&scene, around, &mut document, &mut names)?;
     names.link(&mut document.materials)?;
 
-    let mut shapes = Vec::new();
-    for (kind, read) in body::KINDS {
-        for table in tables(&scene, kind)? {
-            let material = names.of(&table)?;
-            let bodies = read(&table)?;
-            let copies = place::read(&table)?;
-            table.done()?;
-            for body in bodies {
-                if let Some(why) = body.flaw() {
-                    return Err(Problem::degenerate(table.name, why).at(table.line));
-                }
-                room(copies.len() + shapes.len(), table.line)?;
-                for by in &copies {
-                    let wrong = |why| Problem::degenerate(table.name, why).at(table.line);
-                    for body in body.placed(by).map_err(wrong)? {
-                        if let Some(why) = body.flaw() {
-                            return Err(wrong(why));
-                        }
-                        within(&body, table.line)?;
-                        shapes.push(Shape { body, material, line: table.line });
-                    }
-                }
-            }
-        }
+    let mut groups = Groups::read(&tables(&scene, "group")?, &names)?;
+    let mut first = groups.own.len();
+    for part in &included {
+        let theirs = part.groups();
+        groups.include(&theirs, first);
+        first += theirs.len();
     }
+    document.instances = groups.instances(&tables(&scene, "instance")?, &names)?;
+    document.groups = groups.own;
+    document.shapes = shapes(&scene, &names)?;
     scene.done()?;
-    // The kinds were read one after the other; numbers go by the file's order.
-    shapes.sort_by_key(|shape| shape.line);
-    document.shapes = shapes;
     for part in included {
         part.place(&mut document)?;
     }
-    if document.shapes.is_empty() && !around.is_included() {
+    if document.shapes.is_empty() && document.instances.is_empty() && !around.is_included() {
         let kinds: Vec<String> =
             body::KINDS.iter().map(|(kind, _)| format!("[[{kind}]]")).collect();
         let what = format!("a shape ({})", kinds.join(", "));
         return Err(Problem::Missing { what }.anywhere());
     }
     Ok(document)
+}
+
+/// The shapes of a scene or of a group.
+fn shapes(scene: &Table<'_>, names: &Names<'_>) -> Result<Vec<Shape>, Flaw> {
+    let mut shapes = Vec::new();
+    for (kind, read) in body::KINDS {
+        for table in tables(scene, kind)? {
+            let material = names.of(&table)?;
+            let bodies = read(&table)?;
+            copies(&table, bodies, material, &mut shapes)?;
+        }
+    }
+    for table in tables(scene, "solid")? {
+        let material = names.of(&table)?;
+        let bodies = vec![solid::read(&table, names, material)?];
+        copies(&table, bodies, material, &mut shapes)?;
+    }
+    // The kinds were read one after the other; numbers go by the file's order.
+    shapes.sort_by_key(|shape| shape.line);
+    Ok(shapes)
+}
+
+/// Adds what a table describes, once for each of its placements.
+fn copies(
+    table: &Table<'_>,
+    bodies: Vec<Body>,
+    material: usize,
+    shapes: &mut Vec<Shape>,
+) -> Result<(), Flaw> {
+    let copies = place::read(table)?;
+    table.done()?;
+    for body in bodies {
+        if let Some(why) = body.flaw() {
+            return Err(Problem::degenerate(table.name, why).at(table.line));
+        }
+        room(copies.len() + shapes.len(), table.line)?;
+        for by in &copies {
+            let wrong = |why| Problem::degenerate(table.name, why).at(table.line);
+            for body in body.placed(by).map_err(wrong)? {
+                if let Some(why) = body.flaw() {
+                    return Err(wrong(why));
+                }
+                within(&body, table.line)?;
+                shapes.push(Shape { body, material, line: table.line });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A scene's camera for files that are seen by another file's.
@@ -182,9 +219,15 @@ fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
         depth: table.get("depth").map_or(Ok(like.depth), |v| {
             v.count("depth", 1, Rules::DEEPEST.into()).map(|depth| depth as u8)
         })?,
+        sampling: table.get("sampling").map_or(Ok(like.sampling), |v| sampling_of(&v))?,
     };
     table.done()?;
     Ok((size, rules))
+}
+
+fn sampling_of(value: &Value<'_>) -> Result<Sampling, Flaw> {
+    let text = value.text("sampling")?;
+    sampling::parse(text).map_err(|why| Problem::Syntax(format!("sampling: {why}")).at(value.line))
 }
 
 fn size_of(value: Value<'_>) -> Result<Size, Flaw> {

@@ -192,6 +192,7 @@ impl Arithmetic for Fixed {
     const ONE_UNIT: Unit = Unit::ONE;
     const NO_WEIGHT: Weight = Weight::ZERO;
     const FULL: Weight = Weight::ONE;
+    const NO_INTENSITY: FixedIntensity = FixedIntensity { mantissa_q15: 0, exponent: 0 };
     const BLACK: I16F16 = I16F16::ZERO;
     const NO_SPAN: i32 = 0;
     const CUTOFF: Weight = Weight::from_bits(64);
@@ -485,6 +486,14 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn falloff(intensity: &FixedIntensity, inverse: &FixedInverse) -> I16F16 {
         light::falloff(intensity, inverse)
+    }
+
+    fn dim_intensity(i: &FixedIntensity, w: Weight) -> FixedIntensity {
+        light::dimmed(i, w)
+    }
+
+    fn spread_intensity(i: &FixedIntensity, r: I16F16) -> FixedIntensity {
+        light::spread(i, r)
     }
 
     #[inline(always)]

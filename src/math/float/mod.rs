@@ -109,6 +109,7 @@ macro_rules! float {
             const ONE_UNIT: $f = 1.0;
             const NO_WEIGHT: $f = 0.0;
             const FULL: $f = 1.0;
+            const NO_INTENSITY: $f = 0.0;
             const BLACK: $f = 0.0;
             const NO_SPAN: $f = 0.0;
             const CUTOFF: $f = 1.0 / 255.0;
@@ -437,6 +438,16 @@ macro_rules! float {
             #[inline(always)]
             fn falloff(intensity: &$f, inverse: &$f) -> $f {
                 Self::constant(&(*intensity * (*inverse * *inverse)))
+            }
+
+            #[inline(always)]
+            fn dim_intensity(i: &$f, w: $f) -> $f {
+                *i * w
+            }
+
+            #[inline(always)]
+            fn spread_intensity(i: &$f, r: $f) -> $f {
+                *i * (r * r)
             }
 
             #[inline(always)]

@@ -147,6 +147,18 @@ impl<'l, A: Arithmetic> Seen<'l, A> {
     }
 }
 
+/// A point of a flat light for a place of the unit square.
+pub(crate) fn point_of_light<A: Arithmetic>(
+    light: &AreaLight<A>,
+    corners: &[FanCorner<A>],
+    s: u32,
+    t: u32,
+) -> Option<[A::Length; 3]> {
+    // As it is seen from before its centre.
+    let from = A::along(&light.center, light.half, &light.normal);
+    Seen::from(light, corners, &from).map(|seen| seen.point(s, t))
+}
+
 /// Two unit vectors at right angles to a third and to each other.
 fn across<A: Arithmetic>(w: &[A::Unit; 3]) -> [[A::Unit; 3]; 2] {
     // From the axis that w is farthest from: e − (e·w)·w.

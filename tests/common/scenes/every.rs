@@ -84,6 +84,8 @@ pub const PARTS: Parts<A> = Parts {
         Cylinder::<A>::new([0.2, 0.2, -2.4], [1.4, 0.3, -2.8], -0.2, BLUE),
     ],
     cones: &[Cone::<A>::new([-2.4, 0.0, 2.4], 0.9, [-2.3, 2.1, 2.5], 0.2, RED)],
+    solids: &[],
+    operands: &[],
     instances: &[],
     planes: &[Plane::<A>::new([0.0, 1.0, 0.0], 0.0, FLOOR)],
     tree: None,

@@ -11,7 +11,9 @@ mod showcase;
 
 use whitted::frame::{Output, Tone};
 
-use super::{Shot, View};
+use whitted::scene::Scene;
+
+use super::{SAMPLINGS, Shot, View};
 use crate::job::SceneName;
 
 type A = f32;
@@ -21,6 +23,13 @@ const LIMIT_CUTOFF: <A as whitted::math::Arithmetic>::Weight = 4.5 / 256.0;
 
 /// The old programs' colours are display values.
 const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
+
+/// The limit scene with the code for every sampling.
+static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(limit::PARTS);
+
+pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
+    view.view(Shot { scene: &SAMPLED, camera: &limit::CAMERA, depth: 4, output: LINEAR })
+}
 
 #[inline(always)]
 pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {

@@ -11,7 +11,7 @@ use whitted::shape::{Plane, Sphere};
 
 pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts {
+pub(super) const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([0.0, 0.0, 4.0], 1.0, 0),
         Sphere::<A>::new([-2.25, 0.0, 5.0], 1.0, 1),

@@ -10,7 +10,7 @@ mod fixed;
 #[path = "f32.rs"]
 mod float;
 
-use whitted::frame::Output;
+use whitted::frame::{Output, Sampling};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::scene::{Camera, Scene};
 
@@ -41,12 +41,25 @@ pub trait View<A: Arithmetic> {
 pub trait Shots: Arithmetic {
     /// Does something with the scene of a name.
     fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output;
+
+    /// Does something with the limit scene, in a type that all samplings are compiled for.
+    fn sampled<V: View<Self>>(view: V) -> V::Output;
 }
+
+/// What pictures of jobs may be sampled by.
+const SAMPLINGS: u64 = Sampling::Corners.uses()
+    | Sampling::Grid { side: 1 }.uses()
+    | Sampling::ADAPTIVE.uses()
+    | Sampling::SPARSE.uses();
 
 impl Shots for Fixed {
     #[inline(always)]
     fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output {
         fixed::shot(name, view)
+    }
+
+    fn sampled<V: View<Self>>(view: V) -> V::Output {
+        fixed::sampled(view)
     }
 }
 
@@ -54,5 +67,9 @@ impl Shots for f32 {
     #[inline(always)]
     fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output {
         float::shot(name, view)
+    }
+
+    fn sampled<V: View<Self>>(view: V) -> V::Output {
+        float::sampled(view)
     }
 }

@@ -1,0 +1,64 @@
+//! Pictures from coarse to fine, as far as a number of rays goes: what a display would show.
+
+use std::time::Instant;
+
+use whitted::frame::{Output, Passes, Progress, Rgb888};
+use whitted::scene::{Camera, Scene};
+
+use super::{Rendered, Settings, with_renderer};
+use crate::bake::{Baked, Construct};
+use crate::error::{Flaw, Problem};
+use crate::picture::Picture;
+
+/// What the screen shows at the deadline.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The screen, and what it took.
+    pub rendered: Rendered,
+    /// Whether the picture is finished.
+    pub progress: Progress,
+    /// The pass that was being painted: the side of its blocks, 0 in a last pass of more rays a pixel.
+    pub side: u8,
+}
+
+/// Renders from coarse to fine, from blocks of `side` pixels, until so many rays have been sent.
+///
+/// # Errors
+/// A size, depth or side that is out of range, or a camera that the arithmetic can't hold.
+pub fn render_until<A: Construct>(
+    baked: &Baked<A>,
+    settings: &Settings,
+    side: u8,
+    rays: u64,
+) -> Result<Shown, Flaw> {
+    let camera = baked.camera(settings.size)?;
+    let passes =
+        Passes::new(side).map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
+    baked.with_scene(|scene| draw(scene, &camera, settings, passes, rays))?
+}
+
+fn draw<A: Construct>(
+    scene: &Scene<'_, A>,
+    camera: &Camera<A>,
+    settings: &Settings,
+    mut passes: Passes,
+    rays: u64,
+) -> Result<Shown, Flaw> {
+    let start = Instant::now();
+    let mut picture = Picture::new(settings.size);
+    let (progress, counts) = with_renderer(scene, camera, settings.for_core(), |renderer| {
+        let progress = renderer.refine(
+            &mut passes,
+            |counts| counts.rays() >= rays,
+            |block| {
+                let Rgb888(color) = Output::SRGB.pixel::<A, _>(&block.radiance, block.x, block.y);
+                let (left, top) = (usize::from(block.x), usize::from(block.y));
+                let rows = picture.rows_mut().skip(top).take(block.height.into());
+                rows.for_each(|row| row[left..][..usize::from(block.width)].fill(color));
+            },
+        );
+        (progress, *renderer.tally())
+    })?;
+    let rendered = Rendered { picture, counts, time: start.elapsed() };
+    Ok(Shown { rendered, progress, side: passes.side() })
+}
