@@ -9,7 +9,10 @@ use common::random::Random;
 use whitted::frame::{Gray4, Output, Renderer, Rgb565, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::octree::{BuildError, Limits};
-use whitted::scene::{Falloff, LightSpec, MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
+use whitted::scene::{
+    Area, AreaLightSpec, Falloff, LightSpec, MaterialSpec, Parts, PatternSpec, Rules, Scene,
+    Selection, Shadow,
+};
 use whitted::tally::Counts;
 use whitted::trace::Work;
 
@@ -61,6 +64,8 @@ fn material(random: &mut Random) -> MaterialSpec {
             }),
             _ => None,
         },
+        fresnel: random.below(2) == 0,
+        ..MaterialSpec::BLACK
     }
 }
 
@@ -123,10 +128,49 @@ fn scene<A: Make>(seed: u64) -> Counts {
         .collect();
     let lights: Vec<_> = (0..random.below(4)).map(|_| A::light(&light(&mut random))).collect();
     let lights: Vec<_> = lights.into_iter().map(|light| light.expect("a light")).collect();
+    let (mut area_lights, mut light_corners) = (Vec::new(), Vec::new());
+    for _ in 0..random.below(3) {
+        let corners = [point(&mut random), point(&mut random), point(&mut random)];
+        let first = light_corners.len() as u32;
+        let radius = 10f64.powf(random.within(-3.6, 2.7));
+        let normal = random.direction();
+        let [corner, u, v] = corners;
+        let area = match random.below(5) {
+            0 => Area::Rectangle { corner, u, v },
+            1 => Area::Triangle { corners },
+            2 => Area::Polygon { corners: &corners, first },
+            3 => Area::Disc { center: corner, normal, radius },
+            _ => Area::Sphere { center: corner, radius },
+        };
+        let spec = AreaLightSpec {
+            area,
+            radiance: [random.within(0.0, 9.0), 10f64.powf(random.within(-9.0, 9.0)), 0.0],
+            error: 10f64.powf(random.within(-9.0, 9.0)),
+            samples: [1 + random.below(9) as u16, 9 + random.below(20) as u16],
+            body: (random.below(2) == 0).then_some(random.below(30) as u32),
+        };
+        // Corners too far apart are refused.
+        let Ok(light) = A::area_light(&spec) else { continue };
+        if let Area::Polygon { corners, .. } = area {
+            let fan = (0..2).map(|i| A::fan_corner(corners, i));
+            let Ok(fan) = fan.collect::<Result<Vec<_>, _>>() else { continue };
+            light_corners.extend(fan);
+        }
+        area_lights.push(light);
+    }
+    let selection = match random.below(4) {
+        0 => Selection::Choose(random.below(4) as u8),
+        1 => Selection::Above(A::BLACK),
+        _ => Selection::All,
+    };
     let rules = [Rules::COURSE, Rules::WHITTED, Rules::NFF][random.below(3) as usize];
     let scene = Scene::new(Parts {
         materials: &materials,
         lights: &lights,
+        area_lights: &area_lights,
+        light_corners: &light_corners,
+        light_jitter: [None, Some(7)][random.below(2) as usize],
+        selection,
         ambient: A::ambient(coefficients(&mut random, 1024.0)).expect("ambient"),
         background: A::gradient(random.direction(), [0.0; 3], [1024.0; 3]).expect("sky"),
         rules: Rules { lossy: random.below(2) == 0, ..rules },

@@ -89,6 +89,11 @@ impl Around {
         Ok(Self { chain })
     }
 
+    /// The path of a file that this one names: relative to it, if it is a file itself.
+    pub fn file_beside(&self, name: &str) -> PathBuf {
+        self.path().parent().unwrap_or(Path::new("")).join(name)
+    }
+
     /// The file's name.
     pub fn path(&self) -> &Path {
         self.chain.last().map_or(Path::new(""), PathBuf::as_path)

@@ -11,7 +11,7 @@ pub use whitted::frame::{Progress, Sampling};
 use whitted::frame::{Renderer, Sample};
 use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;
-use whitted::trace::{Tracer, Work};
+use whitted::trace::{Terms, Tracer, Work};
 
 use crate::bake::{Baked, Construct};
 use crate::document::{Rules, Size};
@@ -38,12 +38,13 @@ pub struct Settings {
 }
 
 impl Settings {
-    fn for_core(&self) -> whitted::frame::Settings {
+    fn for_core(&self, terms: Terms) -> whitted::frame::Settings {
         // Larger sizes become one that the core refuses.
         let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
         whitted::frame::Settings {
             depth: self.depth,
             sampling: self.sampling,
+            terms,
             ..whitted::frame::Settings::new(side(self.size.width), side(self.size.height))
         }
     }
@@ -70,17 +71,19 @@ pub fn render<A: Construct>(
     progress: impl FnMut(u32),
 ) -> Result<Rendered, Flaw> {
     let camera = baked.camera(settings.size)?;
-    baked.with_scene(|scene| render_scene(scene, &camera, settings, progress))?
+    let terms = baked.document().rules.terms;
+    baked.with_scene(|scene| render_scene(scene, &camera, settings, terms, progress))?
 }
 
 fn render_scene<A: Construct>(
     scene: &Scene<'_, A>,
     camera: &Camera<A>,
     settings: &Settings,
+    terms: Terms,
     mut progress: impl FnMut(u32),
 ) -> Result<Rendered, Flaw> {
     let start = Instant::now();
-    let core = settings.for_core();
+    let core = settings.for_core(terms);
     let mut picture = Picture::new(settings.size);
     let counts = if let Some(show) = settings.show {
         with_renderer(scene, camera, core, |renderer| {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use whitted::tally::Counts;
+use whitted::trace::Paths;
 
 use crate::document::Size;
 
@@ -14,6 +15,8 @@ pub struct Stats {
     pub height: u32,
     /// What the arithmetic is called.
     pub arithmetic: &'static str,
+    /// The paths of light that the picture covers, as `L D S* E`.
+    pub paths: String,
     /// Rays sent.
     pub rays: Rays,
     /// Rays that hit something.
@@ -70,11 +73,18 @@ pub struct Seconds {
 
 impl Stats {
     /// From the tracer's counts.
-    pub fn new(size: Size, arithmetic: &'static str, counts: &Counts, seconds: Seconds) -> Self {
+    pub fn new(
+        size: Size,
+        arithmetic: &'static str,
+        paths: Paths,
+        counts: &Counts,
+        seconds: Seconds,
+    ) -> Self {
         Self {
             width: size.width,
             height: size.height,
             arithmetic,
+            paths: paths.to_string(),
             rays: Rays {
                 primary: counts.primary,
                 reflection: counts.reflection,

@@ -29,10 +29,23 @@ fn every_key_is_documented() {
         format!("{SMALLEST}[background]\nzzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}zzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}checker = {{ with = \"b\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"wood\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"brick\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"stripes\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}texture = {{ type = \"gradient\", zzz = 1 }}\n"),
+        format!("{SMALLEST}{MATERIAL}bump = {{ type = \"noise\", height = 1, zzz = 1 }}\n"),
         format!("{SMALLEST}{MATERIAL}[[light]]\nposition = {point}\nzzz = 1\n"),
         format!(
             "{SMALLEST}{MATERIAL}[[light]]\ntype = \"spot\"\nposition = {point}\n\
              direction = {point}\nzzz = 1\n"
+        ),
+        format!(
+            "{SMALLEST}{MATERIAL}[[light]]\ntype = \"rectangle\"\nradiance = 1\n\
+             corner = {point}\nedges = [[1, 0, 0], [0, 1, 0]]\nzzz = 1\n"
+        ),
+        format!(
+            "{SMALLEST}{MATERIAL}[[light]]\ntype = \"disc\"\nradiance = 1\n\
+             center = {point}\nnormal = {point}\nradius = 1\nzzz = 1\n"
         ),
         format!("{SMALLEST}{MATERIAL}[[plane]]\npoint = {point}\nnormal = {point}\nzzz = 1\n"),
         format!("{SMALLEST}{MATERIAL}{SPHERE}zzz = 1\n"),

@@ -139,6 +139,95 @@ const TOML: &[(&str, &str)] = &[
     ("[[material]]\nname = \"a\"\nchecker = { with = \"b\" }", ":11: unknown material \"b\""),
     ("[[material]]\nname = \"a\"\nchecker = { with = \"a\" }", ":9: checker: its two materials"),
     ("[[material]]\nname = \"a\"\nchecker = { with = \"red\", size = 0 }", ":11: size 0 is out"),
+    ("[[material]]\nname = \"a\"\ntexture = 3", ":11: found 3 for \"texture\"; a table should"),
+    ("[[material]]\nname = \"a\"\ntexture = { size = 1 }", ":11: key \"type\" of this texture"),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"fur\" }",
+        ":11: unknown word \"fur\"; known",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", width = 1 }",
+        ":11: unknown key \"width\"",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", octaves = 9 }",
+        ":11: octaves 9 is out of range: it must be 1 to 8",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", size = 0 }",
+        ":11: size 0 is out of range",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", size = [0, -1, 0] }",
+        ":11: texture: its size must be positive",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", colors = [1] }",
+        ":11: found a list of 1 for \"colors\"; two colors should be here",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"b\" }",
+        ":11: unknown material \"b\"; known: red, a",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"a\" }",
+        ":11: texture: its two materials are the same",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"red\", colors = [0, 1] }",
+        ":11: colors of a texture: \"with\" says",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", with = \"red\", mapping = \"uv\" }",
+        ":11: texture: another material can't be shown by a mesh's",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"noise\", right = [0, 2, 0] }",
+        ":11: texture: a direction is null or not a number",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\" }",
+        ":11: key \"file\" of this texture is missing",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \"no.png\" }",
+        ":11: picture \"no.png\": can't be read: No such file",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \"bad.toml\" }",
+        ":11: picture \"bad.toml\": is no picture in PNG",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \".\" }",
+        ":11: picture \".\": is a directory",
+    ),
+    (
+        "[[material]]\nname = \"a\"\ntexture = { type = \"image\", file = \"x\", palette = 2 }",
+        ":11: palette 2 is out of range: it must be 16 to 256",
+    ),
+    ("[[material]]\nname = \"a\"\nbump = { type = \"noise\" }", ":11: key \"height\" of this bump"),
+    (
+        "[[material]]\nname = \"a\"\nbump = { type = \"noise\", height = 5 }",
+        ":11: height 5 is out of range: it must be within ±4, four cells",
+    ),
+    (
+        "[[material]]\nname = \"a\"\nbump = { type = \"noise\", height = 1, mapping = \"spherical\" }",
+        ":11: bump: only a planar mapping has slopes",
+    ),
+    ("[[material]]\nname = \"a\"\nfresnel = 1", ":11: found 1 for \"fresnel\"; true or false"),
+    ("[[material]]\nname = \"a\"\nabsorption = -1", ":11: absorption -1 is out of range: it must"),
+    (
+        "[[material]]\nname = \"a\"\nabsorption = [1, 2]",
+        ":11: found a list of 2 for \"absorption\"",
+    ),
+    (
+        "[[triangle]]\ncorners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nuv = [[0, 0], [1, 0]]",
+        ":11: found a list of 2 for \"uv\"; a list of three [u, v]",
+    ),
+    (
+        "[[triangle]]\ncorners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nuv = [[0, 0], [1, 0], [0, 9]]",
+        ":11: uv 9 is out of range",
+    ),
     ("[[triangle]]\ncorners = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]", ":9: triangle: its corners lie"),
     ("[[triangle]]\ncorners = [[0, 0, 0], [1, 1, 1]]", ":10: found a list of 2 for \"corners\""),
     (
@@ -154,6 +243,50 @@ const TOML: &[(&str, &str)] = &[
         "[[light]]\ntype = \"area\"\nposition = [0, 0, 0]",
         ":10: unknown word \"area\"; known: point",
     ),
+    ("[[light]]\ntype = \"rectangle\"", ":9: key \"radiance\" of this light is missing"),
+    ("[[light]]\ntype = \"disc\"\nradiance = -1", ":11: radiance -1 is out of range"),
+    ("[[light]]\ntype = \"disc\"\nradiance = 2000\nvisible = true", ":11: radiance 2000 is out"),
+    (
+        "[[light]]\ntype = \"sphere\"\nradiance = 1\ncenter = [0, 0, 0]\nradius = 0",
+        ":13: radius 0 is",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nerror = 0", ":12: error 0 is out of range"),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = 5", ":12: found 5 for \"samples\""),
+    (
+        "[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = [5, 4]",
+        ":12: samples 4 is out of range",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nsamples = [5, 2000]", ":12: samples 2000 is out"),
+    (
+        "[[light]]\ntype = \"rectangle\"\nradiance = 1\ncorner = [0, 0, 0]\nedges = [[1, 0, 0]]",
+        ":13: found a list of 1 for \"edges\"; a list of two edges",
+    ),
+    (
+        "[[light]]\ntype = \"rectangle\"\nradiance = 1\ncorner = [0, 0, 0]\n\
+         edges = [[1, 0, 0], [2, 0, 0]]",
+        ":9: rectangle light: its corners lie on a line",
+    ),
+    (
+        "[[light]]\ntype = \"triangle\"\nradiance = 1\ncorners = [[0, 0, 0], [1, 1, 1], [2, 2, 2]]",
+        ":9: triangle light: its corners lie on a line",
+    ),
+    (
+        "[[light]]\ntype = \"polygon\"\nradiance = 1\n\
+         corners = [[0, 0, 0], [2, 0, 0], [0.5, 0.5, 0], [0, 2, 0]]",
+        ":9: polygon light: it is concave",
+    ),
+    ("[[light]]\ntype = \"sphere\"\nradiance = 1\nposition = [0, 0, 0]", ":9: key \"center\" of"),
+    ("[render]\nlights = \"some\"", ":10: unknown word \"some\"; known: all"),
+    ("[render]\nlights = { choose = 0 }", ":10: choose 0 is out of range: it must be 1 to 255"),
+    ("[render]\nlights = { threshold = -1 }", ":10: threshold -1 is out of range"),
+    ("[render]\nlights = {}", ":10: either \"threshold\" or \"choose\" of this lights is missing"),
+    ("[render]\nlights = { chose = 1 }", ":10: unknown key \"chose\"; known: threshold, choose"),
+    ("[render]\nterms = [\"direct\", \"gloss\"]", ":10: unknown word \"gloss\"; known: emission"),
+    ("[render]\nterms = [\"specular\"]", ":10: terms: reflection and transmission lead on"),
+    ("[render]\nterms = \"direct\"", ":10: found \"direct\" for \"terms\"; a list of words"),
+    ("[render]\nseed = 70000", ":10: seed 70000 is out of range: it must be 0 to 65535"),
+    ("[render]\nlight_jitter = 1", ":10: found 1 for \"light_jitter\"; true or false"),
+    ("[[material]]\nname = \"a\"\nemission = 2000", ":11: emission 2000 is out of range"),
     ("[[light]]\nintensity = 3", ":9: key \"position\" of this light is missing"),
     ("[[light]]\nposition = [0, 0, 0]\ndirection = [0, 0, 1]", ":11: unknown key \"direction\""),
     ("[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 1, 0]", ":9: spot light: it"),

@@ -193,6 +193,11 @@ impl Spec for MaterialSpec {
             emission,
             shadow,
             pattern,
+            fresnel,
+            // Not in this version of the layout.
+            texture: _,
+            bump: _,
+            absorption: _,
         } = self;
         let colors = [ambient, diffuse, specular, reflection, transmission, emission];
         colors.into_iter().for_each(|v| to.numbers(v));
@@ -202,6 +207,7 @@ impl Spec for MaterialSpec {
             Shadow::Filtered => 1,
             Shadow::None => 2,
         });
+        to.byte((*fresnel).into());
         match pattern {
             None => to.byte(0),
             Some(PatternSpec { cell, offset, other }) => {
@@ -230,6 +236,7 @@ impl Spec for MaterialSpec {
                 2 => Shadow::None,
                 _ => return None,
             },
+            fresnel: from.switch()?,
             pattern: match from.byte()? {
                 0 => None,
                 1 => Some(PatternSpec {
@@ -239,6 +246,7 @@ impl Spec for MaterialSpec {
                 }),
                 _ => return None,
             },
+            ..Self::BLACK
         })
     }
 }

@@ -34,8 +34,9 @@ pub enum FrameError {
         /// What was asked for.
         side: u8,
     },
-    /// The scene is tailored, and not to this sampling: what
-    /// [`Sampling::uses`](super::Sampling::uses) says has to be among its uses.
+    /// The scene is tailored, and not to this sampling or to leaving terms out: what
+    /// [`Sampling::uses`](super::Sampling::uses) says, or [`uses::TERMS`](crate::scene::uses::TERMS),
+    /// has to be among its uses.
     Tailored,
     /// The sampling needs to remember more than the slice holds.
     Samples {
@@ -63,9 +64,9 @@ impl fmt::Display for FrameError {
             Self::Pass { side } => {
                 write!(f, "the first pass has blocks of 1, 2, 4, 8, 16, 32, 64 or 128, not {side}")
             }
-            Self::Tailored => {
-                f.write_str("the scene is tailored without this sampling: add Sampling::uses()")
-            }
+            Self::Tailored => f.write_str(
+                "the scene is tailored without this: add Sampling::uses() or uses::TERMS",
+            ),
             Self::Samples { needed } => {
                 write!(f, "this sampling must remember {needed} samples")
             }

@@ -26,6 +26,8 @@ pub use sample::Sample;
 pub use sampling::Sampling;
 pub use tone::{Tone, Transfer};
 
+use crate::trace::Terms;
+
 /// What a frame is to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
@@ -37,12 +39,14 @@ pub struct Settings {
     pub depth: u8,
     /// Where its rays go.
     pub sampling: Sampling,
+    /// Which terms of radiance it shows.
+    pub terms: Terms,
 }
 
 impl Settings {
     /// A picture of this size, five deep, one ray a pixel.
     pub const fn new(width: u16, height: u16) -> Self {
-        Self { width, height, depth: 5, sampling: Sampling::Center }
+        Self { width, height, depth: 5, sampling: Sampling::Center, terms: Terms::ALL }
     }
 }
 

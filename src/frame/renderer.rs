@@ -1,13 +1,14 @@
 //! The renderer: rows of radiance, in any order, in the caller's memory.
 
 use super::sample::Watch;
+use super::sparse::Sparse;
 use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
-use crate::trace::{Tracer, Work};
+use crate::trace::{Terms, Tracer, Work};
 use core::ops::Range;
 
 /// The larger side of a picture at most.
@@ -39,8 +40,9 @@ pub struct Renderer<
     /// What the sampling remembers, if it does.
     samples: &'a mut [Sample<A>],
     pub(super) remembered: Option<Remembered>,
-    /// Of sparse sampling: for which pair of rows the middles of the smallest blocks are remembered.
-    pub(super) middles: Option<Remembered>,
+    /// What lies where no sample does.
+    none: Sample<A>,
+    pub(super) sparse: Sparse<A>,
     /// Of adaptive sampling: whether the pixel's corners differ, from the pixel to the right (bit 0) to
     /// the one to the left (bit 2).
     pub(super) flags: u8,
@@ -81,7 +83,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         samples: &'a mut [Sample<A>],
         tally: T,
     ) -> Result<Self, FrameError> {
-        let Settings { width, height, depth, sampling } = settings;
+        let Settings { width, height, depth, sampling, terms } = settings;
         if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
             return Err(FrameError::Size);
         }
@@ -90,7 +92,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return Err(FrameError::Depth { depth, max });
         }
         sampling.check()?;
-        if !has(USES, sampling.uses()) {
+        if !has(USES, sampling.uses()) || (terms != Terms::ALL && !has(USES, uses::TERMS)) {
             return Err(FrameError::Tailored);
         }
         let needed = sampling.samples(width);
@@ -98,13 +100,14 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             return Err(FrameError::Samples { needed });
         }
         Ok(Self {
-            tracer: Tracer::new(scene, depth),
+            tracer: Tracer::new(scene, depth).with_terms(terms),
             view: View::new(camera, width, height),
             settings,
             work,
             samples,
             remembered: None,
-            middles: None,
+            none: Sample::NONE,
+            sparse: Sparse::new(width, sampling.side()),
             flags: 0,
             tally,
         })
@@ -173,13 +176,22 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(always)]
     pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
+        self.prepare(row, x, fraction);
+        self.radiance(&ray)
+    }
+
+    /// Prepares for a ray.
+    #[inline(always)]
+    fn prepare(&mut self, row: &Row<A>, x: u16, fraction: u8) {
         if uses::has_random(USES) {
             self.tracer.set_key(row.key(x, fraction));
+        }
+        if has(USES, uses::TREE) {
+            self.work.begin_row(row.number());
         }
         if has(USES, uses::VIRTUAL_LIGHTS) {
             self.tracer.set_turn(row.in_tile(x));
         }
-        self.radiance(&ray)
     }
 
     /// What the ray finds that is so many 1/256 of a pixel right of and below the upper left corner
@@ -188,21 +200,22 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     pub(super) fn sample(&mut self, x: u16, right: u8, y: u16, down: u8) -> Sample<A> {
         let row = self.view.row(y, down);
         let ray = self.view.ray(&row, x, right);
-        if uses::has_random(USES) {
-            self.tracer.set_key(row.key(x, right));
-        }
-        if has(USES, uses::VIRTUAL_LIGHTS) {
-            self.tracer.set_turn(row.in_tile(x));
-        }
+        self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.radiance(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)
     }
 
+    /// A remembered sample, where it lies.
+    #[inline(always)]
+    pub(super) fn at(&self, index: usize) -> &Sample<A> {
+        self.samples.get(index).unwrap_or(&self.none)
+    }
+
     /// A remembered sample.
     #[inline(always)]
     pub(super) fn remembered(&self, index: usize) -> Sample<A> {
-        self.samples.get(index).copied().unwrap_or(Sample::NONE)
+        *self.at(index)
     }
 
     /// Remembers a sample.
@@ -226,8 +239,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             Sampling::Adaptive { depth, threshold } if has(USES, uses::ADAPTIVE) => {
                 self.adaptive(x, y, columns, depth, threshold)
             }
-            Sampling::Sparse { side, threshold } if has(USES, uses::SPARSE) => {
-                self.sparse(x, y, columns, side, threshold)
+            Sampling::Sparse { threshold, .. } if has(USES, uses::SPARSE) => {
+                match self.sparse.goes_on(x, columns) {
+                    Some(radiance) => radiance,
+                    None => self.sparse(x, y, columns, threshold),
+                }
             }
             // The renderer isn't made for a sampling that the scene isn't tailored to.
             _ => self.trace(&self.view.row(y, 128), x, 128),

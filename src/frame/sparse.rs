@@ -45,9 +45,10 @@ fn between<A: Arithmetic>(
 }
 
 /// How the memory is laid out.
-#[derive(Clone, Copy)]
-struct Layout {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
     side: u16,
+    log2_side: u32,
     /// Samples in a row.
     stride: usize,
     /// Blocks in a row.
@@ -63,19 +64,61 @@ struct Layout {
 }
 
 impl Layout {
-    #[inline(always)]
-    fn new(width: u16, side: u8) -> Self {
+    const fn new(width: u16, side: u8) -> Self {
         let stride = stride(width, side);
-        let step = usize::from(side >> 1);
+        let step = (side >> 1) as usize;
         let lower = step * stride;
-        let (middles, next) = (lower + stride, lower + 2 * stride);
-        Self { side: side.into(), stride, blocks: blocks(width, side), step, lower, middles, next }
+        Self {
+            side: side as u16,
+            log2_side: side.trailing_zeros(),
+            stride,
+            blocks: blocks(width, side),
+            step,
+            lower,
+            middles: lower + stride,
+            next: lower + 2 * stride,
+        }
     }
 
     /// From a sample to that so many pixels right of and below it.
     #[inline(always)]
     fn offset(&self, right: u16, down: u16) -> usize {
         usize::from(down >> 1) * self.stride + usize::from(right >> 1)
+    }
+}
+
+/// Pixels of a row that lie in one undivided block.
+#[derive(Clone, Copy, Debug)]
+struct Run<A: Arithmetic> {
+    /// At the block's left and right edge.
+    ends: [Rgb<A::Radiance>; 2],
+    side: u16,
+    /// The column behind the last; 0 for none.
+    end: u16,
+}
+
+/// What sparse sampling remembers besides samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sparse<A: Arithmetic> {
+    layout: Layout,
+    run: Run<A>,
+    /// For which pair of rows the middles of the smallest blocks are remembered.
+    middles: Option<Remembered>,
+}
+
+impl<A: Arithmetic> Sparse<A> {
+    /// For pictures of this width; a side of 0 where sampling isn't sparse.
+    pub(super) const fn new(width: u16, side: u8) -> Self {
+        let run = Run { ends: [[A::BLACK; 3]; 2], side: 0, end: 0 };
+        let side = if side == 0 { 2 } else { side };
+        Self { layout: Layout::new(width, side), run, middles: None }
+    }
+
+    /// The pixel at x if it lies in the same undivided block as the one before.
+    #[inline(always)]
+    pub(super) fn goes_on(&self, x: u16, columns: (u16, u16)) -> Option<Rgb<A::Radiance>> {
+        let Run { ends: [left, right], side, end } = self.run;
+        (x < end && x != columns.0).then(|| between::<A>(left, right, x + side - end, side))
     }
 }
 
@@ -89,79 +132,89 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         x: u16,
         y: u16,
         columns: (u16, u16),
-        side: u8,
         threshold: u8,
     ) -> Rgb<A::Radiance> {
-        let layout = Layout::new(self.settings.width, side);
-        let mask = layout.side - 1;
         if x == columns.0 {
-            let wanted = Remembered { y: y & !mask, columns };
-            if self.remembered != Some(wanted) {
-                self.fill(wanted, layout, threshold);
-            }
-            let pair = Remembered { y: y & !1, columns };
-            if self.middles != Some(pair) {
-                for i in layout.middles..layout.next {
-                    self.remember(i, Sample::NONE);
-                }
-                self.middles = Some(pair);
-            }
+            self.begin_sparse(y, columns, threshold);
         }
+        let layout = self.sparse.layout;
+        let mask = layout.side - 1;
         // Where the pixel lies in the smallest block around it, and where that begins.
         let (mut right, mut down, mut side) = (x & mask, y & mask, layout.side);
         let mut corner = usize::from((x - right) >> 1);
-        let mut divided = self.remembered(corner).is_marked();
-        loop {
-            let half = side >> 1;
-            if divided && side > 2 {
-                // Into the quarter around the pixel.
-                if right >= half {
-                    right -= half;
-                    corner += layout.offset(half, 0);
-                }
-                if down >= half {
-                    down -= half;
-                    corner += layout.offset(0, half);
-                }
-                side = half;
-                // The smallest have no middle of their own.
-                divided = side == 2
-                    || self.remembered(corner + layout.offset(side >> 1, side >> 1)).is_known();
-                continue;
+        let mut divided = self.at(corner).is_marked();
+        while divided && side > 2 {
+            // Into the quarter around the pixel.
+            side >>= 1;
+            if right >= side {
+                right -= side;
+                corner += layout.offset(side, 0);
             }
-            if right | down == 0 {
-                return self.remembered(corner).radiance;
+            if down >= side {
+                down -= side;
+                corner += layout.offset(0, side);
             }
-            let corners = [(0, 0), (side, 0), (0, side), (side, side)]
-                .map(|(i, j)| self.remembered(corner + layout.offset(i, j)));
-            let [a, b, c, d] = corners;
-            if !divided || !differ_in_color(&corners, threshold) {
-                let left = between::<A>(a.radiance, c.radiance, down, side);
-                let end = between::<A>(b.radiance, d.radiance, down, side);
-                return between::<A>(left, end, right, side);
-            }
-            let middle = self.middle(x | 1, y | 1, layout);
-            if right & down != 0 {
+            // The smallest have no middle of their own.
+            divided = side == 2 || self.at(corner + layout.offset(side >> 1, side >> 1)).is_known();
+        }
+        if !divided {
+            let edge = |right: u16| {
+                let top = corner + layout.offset(right, 0);
+                let bottom = corner + layout.offset(right, side);
+                between::<A>(self.at(top).radiance, self.at(bottom).radiance, down, side)
+            };
+            let ends = [edge(0), edge(side)];
+            self.sparse.run = Run { ends, side, end: x - right + side };
+            return between::<A>(ends[0], ends[1], right, side);
+        }
+        if right | down == 0 {
+            return self.at(corner).radiance;
+        }
+        let (beside, below) = (corner + 1, corner + layout.stride);
+        let place = layout.middles + usize::from(x >> 1);
+        let mut middle = *self.at(place);
+        if !middle.is_known() && !middle.is_marked() {
+            // Whether it is traced is decided once; the mark says that it isn't.
+            let corners = [corner, beside, below, below + 1].map(|place| *self.at(place));
+            middle = if differ_in_color(&corners, threshold) {
+                self.pixel(x | 1, y | 1)
+            } else {
+                Sample::NONE.marked()
+            };
+            self.remember(place, middle);
+        }
+        let other = *self.at(if right == 0 { below } else { beside });
+        let known = middle.is_known();
+        if right & down != 0 {
+            if known {
                 return middle.radiance;
             }
-            let beside = if right != 0 { b } else { c };
-            if differ_in_color(&[a, beside, middle], threshold) {
-                return self.trace(&self.view.row(y, 128), x, 128);
-            }
-            return between::<A>(a.radiance, beside.radiance, 1, 2);
+            let mean =
+                |a: usize, b: usize| between::<A>(self.at(a).radiance, self.at(b).radiance, 1, 2);
+            return between::<A>(mean(corner, below), mean(beside, below + 1), 1, 2);
         }
+        let first = self.at(corner);
+        if known && differ_in_color(&[*first, other, middle], threshold) {
+            return self.trace(&self.view.row(y, 128), x, 128);
+        }
+        between::<A>(first.radiance, other.radiance, 1, 2)
     }
 
-    /// The middle of a smallest block, remembered or traced.
-    fn middle(&mut self, x: u16, y: u16, layout: Layout) -> Sample<A> {
-        let place = layout.middles + usize::from(x >> 1);
-        let known = self.remembered(place);
-        if known.is_known() {
-            return known;
+    /// Begins a row of pixels between two columns.
+    fn begin_sparse(&mut self, y: u16, columns: (u16, u16), threshold: u8) {
+        let layout = self.sparse.layout;
+        self.sparse.run.end = 0;
+        let wanted = Remembered { y: y & !(layout.side - 1), columns };
+        if self.remembered != Some(wanted) {
+            self.fill(wanted, layout, threshold);
         }
-        let sample = self.pixel(x, y);
-        self.remember(place, sample);
-        sample
+        let pair = Remembered { y: y & !1, columns };
+        if self.sparse.middles != Some(pair) {
+            for i in layout.middles..layout.next {
+                self.remember(i, Sample::NONE);
+            }
+            self.sparse.middles = Some(pair);
+        }
     }
 
     /// The sample at a pixel's centre; beyond an edge, the last pixel's.
@@ -174,7 +227,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     fn fill(&mut self, wanted: Remembered, layout: Layout, threshold: u8) {
         let Remembered { y, columns } = wanted;
         let side = layout.side;
-        let shift = side.trailing_zeros();
+        let shift = layout.log2_side;
         let (first, last) =
             (usize::from(columns.0 >> shift), usize::from((columns.1 - 1) >> shift));
         // The blocks beside the area count, too.
@@ -185,7 +238,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             for i in 0..layout.next + layout.blocks + 1 {
                 self.remember(i, Sample::NONE);
             }
-            self.middles = None;
+            self.sparse.middles = None;
             self.ahead(top, counting, &layout);
             let mut next = top + side;
             while next <= y + side {

@@ -71,7 +71,16 @@ pub(crate) fn power_q14(x_q14: u32, n_q8: u32) -> u32 {
     if product >= 15 << 24 || x == 0 {
         return 0;
     }
-    let exponent_q16 = (product >> 8) as u32;
+    exp2_q14(product >> 8)
+}
+
+/// 2^−x in Q14 for x in Q16, within 1.5·10⁻⁵ and half a step; 0 from x = 15 on.
+#[inline(always)]
+pub(crate) fn exp2_q14(exponent_q16: u64) -> u32 {
+    if exponent_q16 >= 15 << 16 {
+        return 0;
+    }
+    let exponent_q16 = exponent_q16 as u32;
     let power_q16 = between(&EXP2_Q16, exponent_q16 >> 10, exponent_q16 & 1023);
     (power_q16 >> (exponent_q16 >> 16)).wrapping_add(2) >> 2
 }

@@ -165,8 +165,19 @@ const fn cube_of(extents: &[Extent], precision: u8) -> Result<Cube, BuildError> 
 }
 
 const fn in_range(extent: &Extent) -> bool {
+    // before anything is added up
+    if let Extent::Round { ends, radii, .. } = extent {
+        let mut i = 0;
+        while i < 6 {
+            let x = ends[i / 3][i % 3];
+            let r = radii[i / 3];
+            if x < -REACH || x > REACH || r < 0 || r > REACH {
+                return false;
+            }
+            i += 1;
+        }
+    }
     if let Extent::Sphere { center, radius } = extent {
-        // before anything is added up
         let mut axis = 0;
         while axis < 3 {
             if center[axis] < -REACH || center[axis] > REACH {

@@ -20,6 +20,15 @@ pub enum Extent {
         /// The radius.
         radius: i32,
     },
+    /// On the wall of a cone, a frustum or a cylinder, or within it.
+    Round {
+        /// The middles of its two circles.
+        ends: [[i32; 3]; 2],
+        /// Their radii.
+        radii: [i32; 2],
+        /// Whether there is nothing inside of the wall, nor at the ends.
+        hollow: bool,
+    },
     /// Within a triangle.
     Triangle {
         /// The corners.

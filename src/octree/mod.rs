@@ -6,6 +6,7 @@ mod builder;
 mod extent;
 mod node;
 mod overlap;
+mod round;
 mod walk;
 
 pub use buffer::OctreeBuffer;

@@ -5,6 +5,8 @@
 //! Overlap Testing", Journal of Graphics Tools 6, 2001). All three tests are exact, so a shape
 //! that meets a cell meets one of its octants.
 //!
+//! Cones and cylinders have a file of their own.
+//!
 //! Coordinates are below 2²⁸ and sides below 2³⁰: differences fit an `i32`, three squares or
 //! two products of differences an `i64`; a triangle's plane alone needs an `i128`.
 
@@ -27,6 +29,7 @@ impl Cell {
         match extent {
             Extent::Box { min, max } => self.by_box(min, max),
             Extent::Sphere { center, radius } => self.by_sphere(center, *radius),
+            Extent::Round { .. } => self.by_round(extent),
             Extent::Triangle { corners } => self.by_triangle(corners),
         }
     }
@@ -37,7 +40,7 @@ impl Cell {
         (low - self.margin, low + self.half + self.margin)
     }
 
-    const fn by_box(&self, min: &[i32; 3], max: &[i32; 3]) -> u8 {
+    pub(super) const fn by_box(&self, min: &[i32; 3], max: &[i32; 3]) -> u8 {
         let mut octants = 0xff;
         let mut axis = 0;
         while axis < 3 {
@@ -166,6 +169,7 @@ pub(crate) const fn bounds(extent: &Extent) -> ([i32; 3], [i32; 3]) {
         Extent::Sphere { center: c, radius: r } => {
             ([c[0] - *r, c[1] - *r, c[2] - *r], [c[0] + *r, c[1] + *r, c[2] + *r])
         }
+        Extent::Round { ends, radii, .. } => super::round::bounds(ends, radii),
         Extent::Triangle { corners } => {
             let (mut min, mut max) = (corners[0], corners[0]);
             let mut corner = 1;

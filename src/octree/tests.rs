@@ -426,6 +426,20 @@ fn samples(extent: &Extent, random: &mut Random) -> Vec<[f64; 3]> {
                 let d = random.direction();
                 [0, 1, 2].map(|i| f64::from(center[i]) + f64::from(*radius) * d[i])
             }
+            Extent::Round { ends, radii, hollow } => {
+                let end = |i: usize| ends[i].map(f64::from);
+                let way = [0, 1, 2].map(|i| end(1)[i] - end(0)[i]);
+                let length = way.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
+                // across the axis
+                let d = random.direction();
+                let along = (0..3).map(|i| d[i] * way[i]).sum::<f64>() / length;
+                let d = [0, 1, 2].map(|i| d[i] - along * way[i] / length);
+                let size = d.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-9);
+                let s = random.within(0.0, 1.0);
+                let r = f64::from(radii[0]) * (1.0 - s) + f64::from(radii[1]) * s;
+                let r = if *hollow { r } else { r * random.within(0.0, 1.0) };
+                [0, 1, 2].map(|i| end(0)[i] + s * way[i] + r * d[i] / size)
+            }
             Extent::Triangle { corners } => {
                 let (mut b, mut c) = (random.within(0.0, 1.0), random.within(0.0, 1.0));
                 if b + c > 1.0 {
@@ -445,13 +459,19 @@ fn samples(extent: &Extent, random: &mut Random) -> Vec<[f64; 3]> {
 fn some_extent(random: &mut Random, reach: f64) -> Extent {
     let mut p = || random.point(reach).map(|x| x as i32);
     let (a, b, c) = (p(), p(), p());
-    match random.below(3) {
+    match random.below(5) {
         0 => Extent::Box {
             min: [0, 1, 2].map(|i| a[i].min(b[i])),
             max: [0, 1, 2].map(|i| a[i].max(b[i])),
         },
         1 => Extent::Sphere { center: a, radius: random.within(0.0, reach) as i32 },
-        _ => Extent::Triangle { corners: [a, b, c] },
+        2 => Extent::Triangle { corners: [a, b, c] },
+        kind => {
+            let size = [1.0, 0.1, 0.01][random.below(3) as usize] * reach;
+            let r = random.within(0.0, size) as i32;
+            let q = if kind == 3 { r } else { random.within(0.0, size) as i32 };
+            Extent::Round { ends: [a, b], radii: [r, q], hollow: random.below(2) == 0 }
+        }
     }
 }
 
@@ -495,6 +515,31 @@ fn triangles_and_spheres_skip_cells_of_their_boxes() {
     // Only the lowest octant lies all inside.
     assert_eq!(cell.octants(&hollow), 0xfe);
     assert_eq!(bounds(&hollow), ([-400; 3], [1400; 3]));
+}
+
+#[test]
+fn cylinders_and_cones_skip_cells_of_their_boxes() {
+    let cell = Cell { min: [0; 3], half: 1000, margin: 0 };
+    let along = |r, q| {
+        let ends = [[0, 100, 100], [1900, 2000, 100]];
+        cell.octants(&Extent::Round { ends, radii: [r, q], hollow: true })
+    };
+    // Beside the floor's diagonal it misses one of the four, which lies 71 away.
+    assert_eq!([along(20, 20), along(90, 90), along(950, 950)], [0b1101, 0b1111, 0xff]);
+    // A cone is thick enough at its end alone.
+    assert_eq!([along(0, 90), along(0, 900) & 0xf], [0b1101, 0b1111]);
+    // Within a wall is nothing, unless there are caps.
+    let wide = |hollow| {
+        let ends = [[500, 500, -9000], [500, 500, 9000]];
+        cell.octants(&Extent::Round { ends, radii: [800, 800], hollow })
+    };
+    assert_eq!(wide(true), 0b1110_1110);
+    assert_eq!(wide(false), 0b1111_1111);
+    let ends = [[0; 3], [300, 400, 0]];
+    let (min, max) = bounds(&Extent::Round { ends, radii: [100, 100], hollow: true });
+    // r·(4/5, 3/5, 1) around both ends
+    let near = |a: [i32; 3], b: [i32; 3]| (0..3).all(|i| (a[i] - b[i]).abs() <= 2);
+    assert!(near(min, [-80, -60, -100]) && near(max, [380, 460, 100]), "{min:?} {max:?}");
 }
 
 /// Any tree of boxes, spheres and triangles lists each shape in the leaf of each sampled point.

@@ -87,9 +87,8 @@ pub struct AreaLightSpec<'s> {
 }
 
 impl AreaLightSpec<'_> {
-    /// What a light has that doesn't say: about a third of a display's white at a white surface for
-    /// each ray.
-    pub const ERROR: f64 = 0.1;
+    /// What a light has that doesn't say: a ray changes a white surface by 0.025/π, two 255ths.
+    pub const ERROR: f64 = 0.025;
     /// The least and the most shadow rays of a light that doesn't say.
     pub const SAMPLES: [u16; 2] = [4, 64];
 }
@@ -122,6 +121,8 @@ pub struct AreaLight<A: Arithmetic> {
     /// diameter.
     pub(crate) demand: A::Intensity,
     pub(crate) most_demand: A::Radiance,
+    /// The intensity over the square of half the diameter.
+    pub(crate) most: A::Radiance,
     pub(crate) samples: [u16; 2],
     /// How much longer a cell would be one way than the other, were the grid a square; Q8.
     pub(crate) aspect: u16,
@@ -380,6 +381,9 @@ for_each_arithmetic! {
                 demand: some_or!(make::intensity(demand), Coefficient),
                 most_demand: some_or!(
                     clipped(demand / (measure.half * measure.half)), Coefficient
+                ),
+                most: some_or!(
+                    clipped(intensity / (measure.half * measure.half)), Coefficient
                 ),
                 samples: spec.samples,
                 aspect: if aspect < 16.0 { 16 } else { aspect as u16 },

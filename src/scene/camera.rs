@@ -122,6 +122,12 @@ pub struct Row<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Row<A> {
+    /// The pixels' row that it is in.
+    #[inline(always)]
+    pub(crate) fn number(&self) -> u32 {
+        self.place >> 8
+    }
+
     /// The place of a pixel in a tile of 4×4, x in the low two bits.
     #[inline(always)]
     pub(crate) fn in_tile(&self, x: u16) -> u8 {

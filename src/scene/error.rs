@@ -10,6 +10,16 @@ pub enum SceneError {
         /// The index it names.
         index: u16,
     },
+    /// A material names a texture that isn't there.
+    Texture {
+        /// The index it names.
+        index: u16,
+    },
+    /// A material names an absorption that isn't there.
+    Absorption {
+        /// The index it names.
+        index: u16,
+    },
     /// A polygon names edges that aren't there.
     Edges {
         /// The polygon's index.
@@ -46,6 +56,8 @@ impl SceneError {
     pub const fn message(self) -> &'static str {
         match self {
             Self::Material { .. } => "a shape or a pattern names a material that isn't there",
+            Self::Texture { .. } => "a material names a texture that isn't there",
+            Self::Absorption { .. } => "a material names an absorption that isn't there",
             Self::Edges { .. } => "a polygon names edges that aren't there",
             Self::Operands { .. } => "a solid names operands that aren't there",
             Self::Tree { .. } => "the octree is over another number of shapes",
@@ -62,6 +74,12 @@ impl fmt::Display for SceneError {
         match self {
             Self::Material { index } => {
                 write!(f, "a shape or a pattern names material {index}, which isn't there")
+            }
+            Self::Texture { index } => {
+                write!(f, "a material names texture {index}, which isn't there")
+            }
+            Self::Absorption { index } => {
+                write!(f, "a material names absorption {index}, which isn't there")
             }
             Self::Edges { polygon } => {
                 write!(f, "polygon {polygon} names edges that aren't there")

@@ -164,6 +164,12 @@ const fn reach2(extent: &Extent, middle: &[f64; 3]) -> f64 {
             }
             far
         }
+        Extent::Round { ends, radii, .. } => {
+            // The sphere around a circle is not much larger.
+            let a = sqrt_f64(distance2(&ends[0], middle)) + radii[0] as f64;
+            let b = sqrt_f64(distance2(&ends[1], middle)) + radii[1] as f64;
+            if a > b { a * a } else { b * b }
+        }
         Extent::Box { min, max } => {
             let mut far = 0.0;
             let mut i = 0;

@@ -189,6 +189,11 @@ impl<'a, A: Arithmetic> Instance<'a, A> {
         Surface { geometric, normal, ..surface }
     }
 
+    /// A vector of the group's space, up to 2 long, in the scene.
+    pub(crate) fn turn_vector(&self, v: &[A::Unit; 3]) -> [A::Unit; 3] {
+        if self.turned { A::turn(&self.rotation, v) } else { *v }
+    }
+
     /// A distance along the ray in the scene, along that in the group's space.
     #[inline(always)]
     pub(crate) fn distance_inside(&self, inside: &Inside<A>, t: A::Length) -> A::Length {

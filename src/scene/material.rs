@@ -1,6 +1,6 @@
 //! Materials: the coefficients of the model, a triple of channels each.
 
-use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
+use crate::math::{Arithmetic, Rgb, for_each_arithmetic, rgb};
 use crate::shape::{ShapeError, ok_or_panic, some_or};
 
 /// What a shadow ray finds in a surface of this material.
@@ -41,6 +41,17 @@ pub struct MaterialSpec {
     pub shadow: Shadow,
     /// A pattern that shows another material in places.
     pub pattern: Option<PatternSpec>,
+    /// The texture that `diffuse` and `ambient` are multiplied by, or that shows another material in
+    /// places: an index into [`Parts::textures`](super::Parts::textures).
+    pub texture: Option<u16>,
+    /// The texture whose height bends the normal that shading sees.
+    pub bump: Option<u16>,
+    /// `reflection` is multiplied by what a dielectric of these indices reflects of unpolarised light
+    /// (Fresnel's formula), and `transmission` by the rest.
+    pub fresnel: bool,
+    /// What the media on both sides absorb: an index into
+    /// [`Parts::absorptions`](super::Parts::absorptions).
+    pub absorption: Option<u16>,
 }
 
 impl MaterialSpec {
@@ -57,6 +68,10 @@ impl MaterialSpec {
         emission: [0.0; 3],
         shadow: Shadow::Opaque,
         pattern: None,
+        texture: None,
+        bump: None,
+        fresnel: false,
+        absorption: None,
     };
 }
 
@@ -84,12 +99,58 @@ pub struct Material<A: Arithmetic> {
     /// η_i/η_t for a ray from the front and for one from behind.
     pub(crate) eta: [A::Eta; 2],
     pub(crate) pattern: Option<Pattern<A>>,
+    /// Indices, or `u16::MAX` for none.
+    texture: u16,
+    bump: u16,
+    absorption: u16,
     pub(crate) shadow: Shadow,
+    pub(crate) fresnel: bool,
     /// Which coefficients are not 0.
     pub(crate) shines: bool,
     pub(crate) reflects: bool,
+    /// The same, whatever terms a render leaves out.
+    pub(crate) mirrors: bool,
     pub(crate) transmits: bool,
     pub(crate) emits: bool,
+}
+
+impl<A: Arithmetic> Material<A> {
+    #[inline(always)]
+    pub(crate) const fn texture(&self) -> Option<u16> {
+        some(self.texture)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn bump(&self) -> Option<u16> {
+        some(self.bump)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn absorption(&self) -> Option<u16> {
+        some(self.absorption)
+    }
+
+    /// The same material with another diffuse and ambient coefficient, each times a factor.
+    pub(crate) fn times(&self, color: &Rgb<A::Weight>) -> Self {
+        Self {
+            ambient: rgb(&self.ambient, color, A::weight),
+            diffuse: rgb(&self.diffuse, color, A::weight),
+            ..*self
+        }
+    }
+}
+
+const fn some(index: u16) -> Option<u16> {
+    if index == u16::MAX { None } else { Some(index) }
+}
+
+/// An index as it is stored; `None` for the one that stands for nothing.
+const fn index(wanted: Option<u16>) -> Option<u16> {
+    match wanted {
+        None => Some(u16::MAX),
+        Some(u16::MAX) => None,
+        Some(index) => Some(index),
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -147,8 +208,8 @@ for_each_arithmetic! {
         ///
         /// # Errors
         /// A coefficient that is negative, no number or beyond its range (16; 1 for reflection
-        /// and transmission; 1024 for emission), an index of refraction whose ratio to the other side's is beyond
-        /// ¼ to 4, an exponent beyond a million, a negative cell.
+        /// and transmission; 1024 for emission), an index of refraction whose ratio to the other
+        /// side's is beyond ¼ to 4, an exponent beyond a million, a negative cell, an index of 65535.
         pub const fn try_new(spec: &MaterialSpec) -> Result<Self, ShapeError> {
             if !at_most_one(&spec.reflection) || !at_most_one(&spec.transmission) {
                 return Err(ShapeError::Coefficient);
@@ -189,9 +250,14 @@ for_each_arithmetic! {
                     some_or!(make::eta(spec.index_behind / spec.index_front), Coefficient),
                 ],
                 pattern,
+                texture: some_or!(index(spec.texture), Material),
+                bump: some_or!(index(spec.bump), Material),
+                absorption: some_or!(index(spec.absorption), Material),
                 shadow: spec.shadow,
+                fresnel: spec.fresnel,
                 shines: any(&spec.specular),
                 reflects: any(&spec.reflection),
+                mirrors: any(&spec.reflection),
                 transmits: any(&spec.transmission),
                 emission: [
                     some_or!(make::radiance(spec.emission[0]), Coefficient),

@@ -25,6 +25,7 @@
 //! });
 //! ```
 
+mod absorption;
 mod area_light;
 mod background;
 mod camera;
@@ -33,10 +34,13 @@ mod group;
 mod instance;
 mod light;
 mod material;
+mod selection;
 mod shapes;
+mod texture;
 mod transform;
 pub mod uses;
 
+pub use absorption::Absorption;
 pub use area_light::{Area, AreaLight, AreaLightSpec, FanCorner};
 pub use background::Background;
 pub use camera::{Camera, Row, View};
@@ -45,8 +49,12 @@ pub use group::Group;
 pub use instance::Instance;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
+pub use selection::Selection;
 pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
+pub use texture::{
+    Filter, Image, Mapping, Pattern, Texels, Texture, TextureSpec, TriangleUv, Wrap,
+};
 pub use transform::Transform;
 
 pub(crate) use area_light::Form;
@@ -141,6 +149,9 @@ pub struct Parts<'a, A: Arithmetic> {
     pub polygons: &'a [Polygon<A>],
     /// The edges of all polygons.
     pub edges: &'a [PolygonEdge<A>],
+    /// Texture coordinates of the triangles, then of the smooth triangles, in their order; none for
+    /// those beyond its end.
+    pub uvs: &'a [TriangleUv],
     /// Boxes along the axes.
     pub cuboids: &'a [Cuboid<A>],
     /// Discs.
@@ -163,6 +174,10 @@ pub struct Parts<'a, A: Arithmetic> {
     pub tree: Option<Octree<'a, A>>,
     /// Materials, by the index that shapes give.
     pub materials: &'a [Material<A>],
+    /// What materials' surfaces are coloured and bent by.
+    pub textures: &'a [Texture<'a, A>],
+    /// What absorbs light before and behind surfaces.
+    pub absorptions: &'a [Absorption<A>],
     /// Lights.
     pub lights: &'a [Light<A>],
     /// Lights with an area, numbered after the others.
@@ -172,6 +187,8 @@ pub struct Parts<'a, A: Arithmetic> {
     /// Where in its part of an area light a shadow ray goes: through the middle, or at random,
     /// given a seed. The same seed gives the same picture on every machine.
     pub light_jitter: Option<u16>,
+    /// Which lights a point asks.
+    pub selection: Selection<A>,
     /// The ambient irradiance.
     pub ambient: Ambient<A>,
     /// What surfaces send each other, instead of the ambient term.
@@ -200,10 +217,14 @@ impl<A: Arithmetic> Parts<'_, A> {
         planes: &[],
         tree: None,
         materials: &[],
+        textures: &[],
+        uvs: &[],
+        absorptions: &[],
         lights: &[],
         area_lights: &[],
         light_corners: &[],
         light_jitter: None,
+        selection: Selection::All,
         ambient: Ambient([A::BLACK; 3]),
         indirect: Indirect::None,
         background: Background::BLACK,
@@ -275,6 +296,18 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
                 && pattern.other as usize >= parts.materials.len()
             {
                 return Err(SceneError::Material { index: pattern.other });
+            }
+            if let Err(error) = detail_is_there(&parts, material) {
+                return Err(error);
+            }
+            i += 1;
+        }
+        let mut i = 0;
+        while i < parts.textures.len() {
+            if let Some(other) = parts.textures[i].other()
+                && other as usize >= parts.materials.len()
+            {
+                return Err(SceneError::Material { index: other });
             }
             i += 1;
         }
@@ -403,14 +436,6 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
         &self.parts
     }
 
-    /// Whether a shape is the body of an area light: its emission is counted by direct sampling, so
-    /// rays that gather irradiance leave it out.
-    #[inline(always)]
-    pub fn lists(&self, shape: u32) -> bool {
-        has(USES, uses::AREA_LIGHTS)
-            && self.parts.area_lights.iter().any(|light| light.body == shape)
-    }
-
     /// The material at a point of a shape, the checker resolved.
     #[inline(always)]
     pub(crate) fn material_at(
@@ -419,12 +444,54 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
         p: &[A::Length; 3],
     ) -> Option<&'a Material<A>> {
         let material = self.parts.materials.get(id.index())?;
-        if !has(USES, uses::PATTERNS) {
-            return Some(material);
-        }
-        match &material.pattern {
-            Some(pattern) if pattern.odd(p) => self.parts.materials.get(usize::from(pattern.other)),
+        let material = match &material.pattern {
+            Some(pattern) if has(USES, uses::PATTERNS) && pattern.odd(p) => {
+                self.parts.materials.get(usize::from(pattern.other))?
+            }
+            _ => material,
+        };
+        match material.texture() {
+            Some(texture) if has(USES, uses::TEXTURES) => self.swapped(material, texture, *p),
             _ => Some(material),
         }
     }
+
+    /// The material that a texture shows in the place of this one, if it does.
+    #[inline(never)]
+    fn swapped(
+        &self,
+        material: &'a Material<A>,
+        texture: u16,
+        p: [A::Length; 3],
+    ) -> Option<&'a Material<A>> {
+        let texture = self.parts.textures.get(usize::from(texture))?;
+        match texture.other() {
+            Some(other) if texture.is_other(&p) => self.parts.materials.get(usize::from(other)),
+            _ => Some(material),
+        }
+    }
+}
+
+/// Whether what a material names of surface detail is there.
+const fn detail_is_there<A: Arithmetic>(
+    parts: &Parts<'_, A>,
+    material: &Material<A>,
+) -> Result<(), SceneError> {
+    let textures = parts.textures.len();
+    if let Some(index) = material.texture()
+        && index as usize >= textures
+    {
+        return Err(SceneError::Texture { index });
+    }
+    if let Some(index) = material.bump()
+        && index as usize >= textures
+    {
+        return Err(SceneError::Texture { index });
+    }
+    if let Some(index) = material.absorption()
+        && index as usize >= parts.absorptions.len()
+    {
+        return Err(SceneError::Absorption { index });
+    }
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! Bounded shapes by their numbers: one list a kind, numbered through.
 
-use super::{Parts, SceneError};
+use super::{Parts, SceneError, TriangleUv};
 use crate::math::{Arithmetic, for_each_arithmetic};
 use crate::octree::{Extent, Octree};
 use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Polygon, PolygonEdge};
@@ -20,6 +20,9 @@ pub struct Shapes<'a, A: Arithmetic> {
     pub polygons: &'a [Polygon<A>],
     /// The edges of all polygons.
     pub edges: &'a [PolygonEdge<A>],
+    /// Texture coordinates of the triangles, then of the smooth triangles, in their order; none for
+    /// those beyond its end.
+    pub uvs: &'a [TriangleUv],
     /// Boxes along the axes.
     pub cuboids: &'a [Cuboid<A>],
     /// Discs.
@@ -131,6 +134,7 @@ impl<A: Arithmetic> Shapes<'_, A> {
         smooth_triangles: &[],
         polygons: &[],
         edges: &[],
+        uvs: &[],
         cuboids: &[],
         discs: &[],
         cylinders: &[],
@@ -239,6 +243,7 @@ impl<'a, A: Arithmetic> Parts<'a, A> {
             smooth_triangles: self.smooth_triangles,
             polygons: self.polygons,
             edges: self.edges,
+            uvs: self.uvs,
             cuboids: self.cuboids,
             discs: self.discs,
             cylinders: self.cylinders,

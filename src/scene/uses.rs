@@ -18,7 +18,7 @@
 //! ```
 
 use super::light::Source;
-use super::{Background, Falloff, Instance, Parts, Shadow, Shapes};
+use super::{Background, Falloff, Instance, Parts, Selection, Shadow, Shapes};
 use crate::math::Arithmetic;
 
 /// Anything.
@@ -67,10 +67,23 @@ pub const SPECULAR_COSINE: u64 = 1 << 19;
 pub const HIGHLIGHT_COSINE: u64 = 1 << 20;
 /// [`Rules::transmitters_reflect`](super::Rules::transmitters_reflect).
 pub const TRANSMITTERS_REFLECT: u64 = 1 << 21;
+/// [`MaterialSpec::texture`](super::MaterialSpec::texture).
+pub const TEXTURES: u64 = 1 << 48;
+/// [`MaterialSpec::bump`](super::MaterialSpec::bump).
+pub const BUMPS: u64 = 1 << 49;
+/// [`MaterialSpec::fresnel`](super::MaterialSpec::fresnel).
+pub const FRESNEL: u64 = 1 << 50;
+/// [`MaterialSpec::absorption`](super::MaterialSpec::absorption).
+pub const ABSORPTION: u64 = 1 << 51;
 /// Lights with an area.
 pub const AREA_LIGHTS: u64 = 1 << 22;
 /// Materials that emit.
 pub const EMISSION: u64 = 1 << 23;
+/// Points that don't ask all lights.
+pub const LIGHT_SELECTION: u64 = 1 << 24;
+/// Renders that leave [`Terms`](crate::trace::Terms) out. No scene needs it: a tailored one names it
+/// beside what it uses.
+pub const TERMS: u64 = 1 << 25;
 
 /// Instances of groups.
 pub const INSTANCES: u64 = 1 << 40;
@@ -130,7 +143,7 @@ pub(crate) const fn has_signatures(uses: u64) -> bool {
 /// Whether anything is random about rays.
 #[inline(always)]
 pub(crate) const fn has_random(uses: u64) -> bool {
-    has(uses, AREA_LIGHTS)
+    uses & (AREA_LIGHTS | LIGHT_SELECTION) != 0
 }
 
 const fn bit(wanted: bool, what: u64) -> u64 {
@@ -186,11 +199,16 @@ impl<A: Arithmetic> Parts<'_, A> {
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
             | bit(self.rules.highlight_cosine, HIGHLIGHT_COSINE)
             | bit(self.rules.transmitters_reflect, TRANSMITTERS_REFLECT)
-            | bit(!self.area_lights.is_empty(), AREA_LIGHTS);
+            | bit(!self.area_lights.is_empty(), AREA_LIGHTS)
+            | bit(!matches!(self.selection, Selection::All), LIGHT_SELECTION);
         let mut i = 0;
         while i < self.materials.len() {
             let material = &self.materials[i];
             uses |= bit(material.pattern.is_some(), PATTERNS)
+                | bit(material.texture().is_some(), TEXTURES)
+                | bit(material.bump().is_some(), BUMPS)
+                | bit(material.fresnel, FRESNEL)
+                | bit(material.absorption().is_some(), ABSORPTION)
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)

@@ -156,17 +156,32 @@ for_each_arithmetic! {
             (min, max)
         }
 
-        /// The box around both circles.
+        /// Its two circles.
         pub const fn extent(&self, log2_step: i8) -> Extent {
-            let (low, high) = self.reach();
-            let (mut min, mut max) = ([0; 3], [0; 3]);
-            let mut i = 0;
-            while i < 3 {
-                min[i] = make::grid(low[i], log2_step);
-                max[i] = make::grid(high[i], log2_step);
-                i += 1;
+            let size = make::from_radius(&self.bound);
+            let (sin, cos) =
+                (make::from_unit(self.sin_cos[0]), make::from_unit(self.sin_cos[1]));
+            let (waist, half) = (make::from_unit(self.waist), make::from_unit(self.half));
+            let (mut ends, mut radii) = ([[0; 3]; 2], [0; 2]);
+            let mut end = 0;
+            while end < 2 {
+                let s = if end == 0 { -half } else { half };
+                // cos is at least 2⁻¹⁷ of anything: length and radius have the same range.
+                let r = if cos > 0.0 { (waist + sin * s) / cos } else { 1.0 };
+                let r = if r > 1.0 { 1.0 } else { r };
+                // Radii are stored to 17 bits of the size.
+                let r = (if r > 0.0 { r } else { 0.0 }) + 1.0 / 32768.0;
+                radii[end] = make::grid(size * r, log2_step);
+                let mut i = 0;
+                while i < 3 {
+                    let at = make::from_length(self.middle[i])
+                        + size * s * make::from_unit(self.axis[i]);
+                    ends[end][i] = make::grid(at, log2_step);
+                    i += 1;
+                }
+                end += 1;
             }
-            Extent::Box { min, max }
+            Extent::Round { ends, radii, hollow: self.capped == 0 }
         }
     }
 }

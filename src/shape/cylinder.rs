@@ -87,17 +87,19 @@ for_each_arithmetic! {
             (min, max)
         }
 
-        /// The box around both circles.
+        /// Its two circles.
         pub const fn extent(&self, log2_step: i8) -> Extent {
-            let (low, high) = self.reach();
-            let (mut min, mut max) = ([0; 3], [0; 3]);
+            let r = make::grid(make::from_radius(&self.radius), log2_step);
+            let (mut base, mut apex) = ([0; 3], [0; 3]);
             let mut i = 0;
             while i < 3 {
-                min[i] = make::grid(low[i], log2_step);
-                max[i] = make::grid(high[i], log2_step);
+                let b = make::from_length(self.base[i]);
+                base[i] = make::grid(b, log2_step);
+                let a = b + make::from_length(self.length) * make::from_unit(self.axis[i]);
+                apex[i] = make::grid(a, log2_step);
                 i += 1;
             }
-            Extent::Box { min, max }
+            Extent::Round { ends: [base, apex], radii: [r, r], hollow: self.capped == 0 }
         }
     }
 }

@@ -21,6 +21,8 @@ pub enum ShapeError {
     Operands,
     /// The material's index is 32768 or more.
     Material,
+    /// An image's size, palette and bytes don't fit together.
+    Image,
     /// The shadow rays to an area light are none, more than 1024, or at least more than at most.
     Samples,
 }
@@ -37,6 +39,7 @@ impl ShapeError {
             Self::Coefficient => "a coefficient is negative, not a number, or out of range",
             Self::Operands => "a solid needs one to eight operands, an inside and an end",
             Self::Material => "a material's index is 32768 or more",
+            Self::Image => "an image's size, palette and bytes don't fit together",
             Self::Samples => "an area light takes 1 to 1024 shadow rays, at least as many at most",
         }
     }

@@ -77,6 +77,12 @@ impl<A: Arithmetic> SmoothTriangle<A> {
     pub(crate) const fn material_id(&self) -> MaterialId {
         self.flat.material_id()
     }
+
+    /// The weights of the second and third corner at a point of the triangle.
+    #[inline(always)]
+    pub(crate) fn weights(&self, p: &[A::Length; 3]) -> (A::Weight, A::Weight) {
+        self.flat.weights(p)
+    }
 }
 
 impl<A: Arithmetic> Shape<A> for SmoothTriangle<A> {

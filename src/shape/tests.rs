@@ -476,6 +476,18 @@ proptest! {
                         let f = minus(p, center.map(f64::from));
                         prop_assert!((dot(f, f).sqrt() - f64::from(radius)).abs() < 4.0 + f64::from(radius) / 32768.0);
                     }
+                    Extent::Round { ends, radii, .. } => {
+                        let [base, apex] = ends.map(|e| e.map(f64::from));
+                        let [r, q] = radii.map(f64::from);
+                        let way = minus(apex, base);
+                        let s = dot(minus(p, base), way) / dot(way, way);
+                        let off = minus(p, add(base, times(way, s)));
+                        let size = dot(way, way).sqrt() + r.max(q);
+                        let slack = 4.0 + size / 8192.0;
+                        prop_assert!((-slack..=slack + size).contains(&(s * dot(way, way).sqrt())));
+                        let wall = dot(off, off).sqrt() - (r + (q - r) * s);
+                        prop_assert!(wall.abs() < slack * (1.0 + size / dot(way, way).sqrt()), "{}", wall);
+                    }
                     Extent::Triangle { .. } => {}
                 }
             }

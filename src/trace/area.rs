@@ -6,7 +6,7 @@ mod place;
 use super::direct::Shading;
 use super::visible::visible_beside;
 use super::work::Scratch;
-use crate::math::{Arithmetic, Rgb, hash, rgb, spread, sub};
+use crate::math::{Arithmetic, Rgb, hash, largest, rgb, spread, sub};
 use crate::scene::uses::{self, has};
 use crate::scene::{AreaLight, Material, Scene};
 use crate::shape::{Ray, Surface};
@@ -17,13 +17,14 @@ pub(crate) use place::point_of_light;
 /// A point being shaded, by value: what a reference is taken of can't stay in registers.
 #[derive(Clone, Copy)]
 pub(super) struct Point<'s, A: Arithmetic> {
-    surface: Surface<A>,
-    material: &'s Material<A>,
-    mirror: [A::Unit; 3],
-    shadow: Ray<A>,
-    weight: Rgb<A::Weight>,
-    depth: u8,
-    key: u32,
+    pub(super) surface: Surface<A>,
+    pub(super) material: &'s Material<A>,
+    pub(super) mirror: [A::Unit; 3],
+    pub(super) shadow: Ray<A>,
+    pub(super) weight: Rgb<A::Weight>,
+    pub(super) depth: u8,
+    pub(super) highlights: bool,
+    pub(super) key: u32,
 }
 
 impl<'s, A: Arithmetic> Point<'s, A> {
@@ -36,6 +37,7 @@ impl<'s, A: Arithmetic> Point<'s, A> {
             shadow: at.shadow,
             weight: *at.weight,
             depth: at.depth,
+            highlights: at.highlights,
             key: at.key,
         }
     }
@@ -61,8 +63,27 @@ pub(super) fn areas<A: Arithmetic, T: Tally, const USES: u64>(
     sum
 }
 
+/// What the light would add to the largest channel of the point, were nothing in its way: by its
+/// centre, and never 0 where some of it can be seen.
+pub(super) fn expected<A: Arithmetic, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    light: &AreaLight<A>,
+    at: &Point<'_, A>,
+) -> A::Radiance {
+    let normal = &at.surface.normal;
+    let Some(seen) = Seen::from(light, scene.parts.light_corners, &at.shadow.origin) else {
+        return A::BLACK;
+    };
+    if A::project(&seen.way, normal) + light.half <= A::NO_LENGTH {
+        return A::BLACK;
+    }
+    let k = rgb(&at.material.diffuse, &at.material.specular, |d, s| d + s);
+    let k = rgb(&rgb(&k, &light.color, A::weight), &at.weight, A::weight);
+    A::dim(seen.irradiance(light, normal), largest(&k))
+}
+
 /// What the point sends back of one light's; `None` where the light can't reach it.
-fn area<A: Arithmetic, T: Tally, const USES: u64>(
+pub(super) fn area<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     light: &AreaLight<A>,
     number: u16,
@@ -86,8 +107,9 @@ fn area<A: Arithmetic, T: Tally, const USES: u64>(
 
     let shines = has(USES, uses::HIGHLIGHTS)
         && at.material.shines
+        && at.highlights
         // A mirror shows the light itself.
-        && !(light.body().is_some() && at.material.reflects);
+        && !(light.body().is_some() && at.material.mirrors);
     let mut shadowed = true;
     let (mut matt, mut gloss) = ([A::BLACK; 3], [A::BLACK; 3]);
     let mut ray = at.shadow;
@@ -113,7 +135,9 @@ fn area<A: Arithmetic, T: Tally, const USES: u64>(
             ray.direction = direction;
             let limit = seen.end(light, &direction, distance);
             tally.ray(RayKind::Shadow, at.depth, &ray, &at.weight);
-            let Some(share) = visible_beside(scene, &ray, limit, light.body, scratch, tally) else {
+            let Some(share) =
+                visible_beside(scene, &ray, limit, number, light.body, scratch, tally)
+            else {
                 continue;
             };
             shadowed = false;

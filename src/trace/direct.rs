@@ -1,11 +1,12 @@
 //! Direct light: Lambert and Phong for each light that a shadow ray finds visible.
 
 use super::area::{Point, areas};
+use super::select::selected;
 use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, has};
-use crate::scene::{Incident, Material, Scene};
+use crate::scene::{Incident, Material, Rules, Scene, Selection};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -35,6 +36,10 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) {
+    if has(USES, uses::LIGHT_SELECTION) && !matches!(scene.parts.selection, Selection::All) {
+        *sum = rgb(sum, &selected(scene, Point::of(&at), scratch, tally), A::gather);
+        return;
+    }
     let rules = &scene.parts.rules;
     let mut index = 0;
     for light in scene.parts.lights {
@@ -49,25 +54,26 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         if cosine <= A::NO_WEIGHT {
             continue;
         }
+        // A dent doesn't see a light that lies below the surface.
+        if has(USES, uses::BUMPS)
+            && at.material.bump().is_some()
+            && A::cosine(&at.surface.geometric, &direction) <= A::NO_WEIGHT
+        {
+            continue;
+        }
         at.shadow.direction = direction;
         tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, scratch, tally) else {
+        let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
             tally.shadowed(number, at.depth);
             continue;
         };
-        let diffuse = at.material.diffuse;
-        let mut factor = diffuse.map(|k| A::weight(k, cosine));
-        if has(USES, uses::HIGHLIGHTS) && at.material.shines && at.highlights {
-            // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
-            let lobe = A::cosine(at.mirror, &direction);
-            if lobe > A::NO_WEIGHT {
-                let mut highlight = A::power(lobe, &at.material.shininess);
-                if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
-                    highlight = A::weight(highlight, cosine);
-                }
-                factor = rgb(&factor, &at.material.specular, |f, k| f + A::weight(k, highlight));
-            }
-        }
+        let factor = factor::<A, USES>(
+            rules,
+            at.material,
+            at.highlights.then_some(at.mirror),
+            cosine,
+            &direction,
+        );
         let factor = rgb(&factor, &light.color, A::weight);
         let factor = rgb(&factor, at.weight, A::weight);
         let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
@@ -79,4 +85,33 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
     if has(USES, uses::AREA_LIGHTS) && !scene.parts.area_lights.is_empty() {
         *sum = rgb(sum, &areas(scene, Point::of(&at), scratch, tally), A::gather);
     }
+}
+
+/// The part of the irradiance from a direction (over π) that goes back along the ray: Lambert's
+/// term and, given the mirror direction of the ray, Phong's highlight. `cosine` is the one between normal and direction, positive.
+#[inline(always)]
+pub(super) fn factor<A: Arithmetic, const USES: u64>(
+    rules: &Rules<A>,
+    material: &Material<A>,
+    mirror: Option<&[A::Unit; 3]>,
+    cosine: A::Weight,
+    direction: &[A::Unit; 3],
+) -> Rgb<A::Weight> {
+    let diffuse = material.diffuse;
+    let factor = diffuse.map(|k| A::weight(k, cosine));
+    if has(USES, uses::HIGHLIGHTS)
+        && material.shines
+        && let Some(mirror) = mirror
+    {
+        // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
+        let lobe = A::cosine(mirror, direction);
+        if lobe > A::NO_WEIGHT {
+            let mut highlight = A::power(lobe, &material.shininess);
+            if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
+                highlight = A::weight(highlight, cosine);
+            }
+            return rgb(&factor, &material.specular, |f, k| f + A::weight(k, highlight));
+        }
+    }
+    factor
 }

@@ -1,7 +1,7 @@
 //! Diffuse interreflection at a point.
 
 use super::visible::visible;
-use super::work::Scratch;
+use super::work::{NO_LIGHT, Scratch};
 use crate::gather::{Indirect, VirtualLights};
 use crate::math::{Arithmetic, Rgb, rgb, sub};
 use crate::scene::Scene;
@@ -70,7 +70,7 @@ fn virtual_lights<A: Arithmetic, T: Tally, const USES: u64>(
         tally.ray(RayKind::Shadow, spot.depth, &ray, &[A::FULL; 3]);
         // Not quite to the light, which lies on a surface.
         let end = distance - A::scale(distance, A::fraction(32));
-        let Some(share) = visible(scene, &ray, end, scratch, tally) else { continue };
+        let Some(share) = visible(scene, &ray, end, NO_LIGHT, scratch, tally) else { continue };
         let cosines = A::weight(here, there);
         let factor = rgb(&light.color(), &share, A::weight).map(|c| A::weight(c, cosines));
         sum = rgb(&sum, &factor.map(|f| A::dim(irradiance, f)), A::gather);

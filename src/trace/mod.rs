@@ -1,17 +1,21 @@
 //! Tracing: from a camera's ray to its radiance, the tree of rays on an explicit stack.
 
 mod area;
+mod detail;
 mod direct;
 mod indirect;
 mod meet;
 mod nearest;
 mod probe;
 mod radiance;
+mod select;
 mod site;
+mod terms;
 mod visible;
 mod work;
 
 pub(crate) use area::point_of_light;
 pub use nearest::Hit;
 pub use radiance::Tracer;
+pub use terms::{Paths, Terms};
 pub use work::Work;

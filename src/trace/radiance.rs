@@ -4,10 +4,12 @@
 //! down the tree, and sends at most two rays. One is followed at once, the other waits on a
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
+use super::detail::{self, bumped, painted};
 use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
+use super::terms::Terms;
 use super::work::{Scratch, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
@@ -49,6 +51,7 @@ pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
     gathering: bool,
     key: u32,
+    terms: Terms,
     /// Whose turn it is among virtual lights.
     turn: u8,
 }
@@ -57,7 +60,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
     pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
-        Self { scene, depth, key: 0, turn: 0, gathering: false }
+        Self { scene, depth, key: 0, turn: 0, gathering: false, terms: Terms::ALL }
     }
 
     /// A tracer for rays that gather irradiance: what they see of the lights is counted elsewhere.
@@ -72,6 +75,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     #[must_use]
     pub fn with_key(self, key: u32) -> Self {
         Self { key, ..self }
+    }
+
+    /// The same, adding up these terms alone; all, if the scene is tailored without
+    /// [`uses::TERMS`].
+    #[inline(always)]
+    #[must_use]
+    pub fn with_terms(self, terms: Terms) -> Self {
+        Self { terms, ..self }
     }
 
     /// The place of the pixel whose rays follow: see [`Row::in_tile`](crate::scene::Row).
@@ -144,6 +155,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             }
             tally.ray(path.kind, path.depth, &path.ray, &path.weight);
             let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
+                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => false,
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
@@ -201,9 +213,39 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
             return (false, None);
         };
-        let surface = place.surface;
+        let mut surface = place.surface;
         let Some(material) = scene.material_at(place.material, &place.local) else {
             return (false, None);
+        };
+
+        // A textured material is one made for the point, so that nothing below need know.
+        let made;
+        let mut material = material;
+        if has(USES, uses::TEXTURES)
+            && let Some(texture) = material.texture()
+        {
+            made = painted(scene, *material, texture, hit.shape, place.local);
+            material = &made;
+        }
+        if has(USES, uses::BUMPS)
+            && let Some(texture) = material.bump()
+        {
+            surface = bumped(scene, texture, surface, hit.shape, place.local, ray.direction);
+        }
+        if has(USES, uses::ABSORPTION)
+            && let Some(absorption) = material.absorption()
+        {
+            let way = hit.distance;
+            path.weight = detail::absorbed(scene, absorption, surface.behind, way, path.weight);
+        }
+
+        let (some, whole) = (has(USES, uses::TERMS) && self.terms != Terms::ALL, material);
+        let masked;
+        let material = if some {
+            masked = self.terms.of(whole);
+            &masked
+        } else {
+            whole
         };
 
         if has(USES, uses::EMISSION)
@@ -235,11 +277,13 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 scratch,
                 tally,
             ) {
-            (&material.diffuse, irradiance, Term::Indirect)
+            let left_out = some && !self.terms.has(Terms::INDIRECT);
+            let share = if left_out { [A::NO_WEIGHT; 3] } else { whole.diffuse };
+            (share, irradiance, Term::Indirect)
         } else {
-            (&material.ambient, scene.parts.ambient.0, Term::Ambient)
+            (material.ambient, scene.parts.ambient.0, Term::Ambient)
         };
-        let radiance = rgb(&rgb(share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
+        let radiance = rgb(&rgb(&share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
         tally.term::<A>(term, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 
@@ -263,17 +307,25 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut reflected = material.reflection;
         let mut transmitted = None;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
-        if glass {
+        let fresnel = has(USES, uses::FRESNEL) && material.fresnel;
+        if glass || fresnel {
             let eta = if surface.behind { &material.eta[1] } else { &material.eta[0] };
             let direction = &path.ray.direction;
             match A::refract(direction, &surface.normal, surface.cosine, eta) {
                 Some(direction) => {
                     let mut weight = rgb(&material.transmission, &path.weight, A::weight);
+                    if fresnel {
+                        let cosine = -A::cosine(&surface.normal, &direction);
+                        let cosines = [A::weight_of(surface.cosine), positive::<A>(cosine)];
+                        let share = detail::reflectance::<A>(cosines, A::eta_weight(eta));
+                        reflected = reflected.map(|k| A::weight(k, share));
+                        weight = weight.map(|w| A::weight(w, A::FULL - share));
+                    }
                     if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                         let cosine = -A::cosine(&surface.normal, &direction);
                         weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
                     }
-                    if largest(&weight) >= rules.cutoff {
+                    if glass && largest(&weight) >= rules.cutoff {
                         let ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
@@ -283,8 +335,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                             Some(Path { ray, weight, depth, kind: RayKind::Transmission });
                     }
                 }
-                // Nothing gets through: the mirror ray carries both, unless the scene says not.
-                None if !rules.lossy => {
+                // Nothing gets through: the mirror ray carries both, unless the scene says not. By
+                // Fresnel's formula it already carries all of its own.
+                None if !rules.lossy && !fresnel => {
                     reflected = rgb(&reflected, &material.transmission, |a, b| a + b);
                 }
                 None => {}

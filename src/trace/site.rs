@@ -1,5 +1,6 @@
 //! Places where diffuse light is wanted, for what fills irradiance caches and lays virtual lights.
 
+use super::detail::painted;
 use super::meet::surface_at;
 use super::{Tracer, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg};
@@ -65,7 +66,12 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
                 None => (RayKind::Reflection, outside),
             });
         }
-        let diffuse = material.diffuse;
+        let diffuse = match material.texture() {
+            Some(texture) if has(USES, uses::TEXTURES) => {
+                painted(self.scene, *material, texture, hit.shape, place.local).diffuse
+            }
+            _ => material.diffuse,
+        };
         Some(Site { position, surface, outside, diffuse, next })
     }
 }

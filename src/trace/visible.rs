@@ -1,8 +1,9 @@
 //! What a shadow ray finds between a point and a light.
 
+use super::detail::absorbed;
 use super::meet::{meet, meet_any, surface_at};
 use super::nearest::nearest;
-use super::work::Scratch;
+use super::work::{NO_SHAPE, Scratch};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, has, has_others};
@@ -79,15 +80,15 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on with the tree, or with those shapes that nobody tests else. By value, as in the search
-/// for the nearest hit.
+/// Goes on with the tree, after the shape that stood in the way last, or with those shapes that
+/// nobody tests else. By value, as in the search for the nearest hit.
 #[inline(never)]
 fn search<A: Arithmetic, T: Tally, const USES: u64>(
     shapes: &Shapes<'_, A>,
     mut rest: Range<u32>,
     ray: Ray<A>,
     limit: A::Length,
-    walk: &mut WalkStack<A>,
+    (walk, last): (&mut WalkStack<A>, &mut u32),
     tally: &mut T,
 ) -> Option<u32> {
     let coarse = A::coarse(&ray.origin, &ray.direction);
@@ -95,7 +96,12 @@ fn search<A: Arithmetic, T: Tally, const USES: u64>(
     if has(USES, uses::TREE)
         && let Some(tree) = &shapes.tree
     {
-        tree.walk(&ray.origin, &ray.direction, walk, &mut search);
+        if *last == NO_SHAPE || !search.visit(*last) {
+            tree.walk(&ray.origin, &ray.direction, walk, &mut search);
+        }
+        if let Some(found) = search.found {
+            *last = found;
+        }
         return search.found;
     }
     rest.find(|&id| search.test_any(id))
@@ -118,7 +124,8 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
         if let Some(inside) = instance.enter(first, &ray, &coarse, limit) {
             let limit = instance.distance_inside(&inside, limit);
             let rest = 0..group.count;
-            let found = search::<A, T, USES>(&group.shapes, rest, inside.ray, limit, walk, tally);
+            let memory = (&mut *walk, &mut { NO_SHAPE });
+            let found = search::<A, T, USES>(&group.shapes, rest, inside.ray, limit, memory, tally);
             if let Some(id) = found {
                 return Some(first.wrapping_add(id));
             }
@@ -134,7 +141,7 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
-    walk: &mut WalkStack<A>,
+    (walk, last): (&mut WalkStack<A>, &mut u32),
     tally: &mut T,
 ) -> Option<u32> {
     let (parts, shapes) = (&scene.parts, &scene.shapes);
@@ -152,7 +159,7 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     }
     if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
         let rest = shapes.spheres.len() as u32..scene.bounded;
-        let found = search::<A, T, USES>(shapes, rest, *ray, limit, walk, tally);
+        let found = search::<A, T, USES>(shapes, rest, *ray, limit, (walk, last), tally);
         if found.is_some() {
             return found;
         }
@@ -175,20 +182,22 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     None
 }
 
-/// How much of a light comes along the shadow ray from nearer than `limit`; `None` for nothing.
+/// How much of the light of this number comes along the shadow ray from nearer than `limit`; `None`
+/// for nothing.
 #[inline(always)]
 pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
+    light: u16,
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
-    let walk = &mut scratch.walk;
+    let (walk, last) = scratch.of_light(light);
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, NO_SHAPE, walk, tally);
     }
-    match occluder(scene, ray, limit, walk, tally) {
+    match occluder(scene, ray, limit, (walk, last), tally) {
         Some(shape) => {
             tally.hit::<A>(RayKind::Shadow, shape, limit);
             None
@@ -197,24 +206,22 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     }
 }
 
-/// No shape's number.
-const NO_SHAPE: u32 = u32::MAX;
-
 /// The same for a light on the surface of the shape `body`, which doesn't stand in its way.
 #[inline(never)]
 pub(super) fn visible_beside<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
+    light: u16,
     body: u32,
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
-    let walk = &mut scratch.walk;
+    let (walk, last) = scratch.of_light(light);
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, body, walk, tally);
     }
-    let mut found = occluder(scene, ray, limit, walk, tally);
+    let mut found = occluder(scene, ray, limit, (&mut *walk, last), tally);
     if found == Some(body) {
         // The ray ends on the body, where rounding can see it a little nearer; whatever else is in
         // the way is nearer still.
@@ -252,6 +259,11 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
         let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
         let surface = place.surface;
         let material = scene.material_at(place.material, &place.local)?;
+        if has(USES, uses::ABSORPTION)
+            && let Some(absorption) = material.absorption()
+        {
+            share = absorbed(scene, absorption, surface.behind, hit.distance, share);
+        }
         match material.shadow {
             Shadow::None => {}
             Shadow::Filtered if material.transmits => {

@@ -8,7 +8,8 @@ use super::random::Random;
 use whitted::math::{Fixed, Rgb};
 use whitted::octree::{BuildError, Built, Cube, Extent, Limits, Octree, TreeError, build_into};
 use whitted::scene::{
-    Ambient, Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts,
+    Ambient, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Light, LightSpec, Material,
+    MaterialSpec, Parts,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, ShapeError, SmoothTriangle, Sphere,
@@ -130,6 +131,8 @@ pub trait Make: FromF64 {
     ) -> Result<Octree<'a, Self>, TreeError>;
     fn material(spec: &MaterialSpec) -> Result<Material<Self>, ShapeError>;
     fn light(spec: &LightSpec) -> Result<Light<Self>, ShapeError>;
+    fn area_light(spec: &AreaLightSpec<'_>) -> Result<AreaLight<Self>, ShapeError>;
+    fn fan_corner(corners: &[Point], i: usize) -> Result<FanCorner<Self>, ShapeError>;
     fn uniform(radiance: Rgb<f64>) -> Result<Background<Self>, ShapeError>;
     fn gradient(up: Point, bottom: Rgb<f64>, top: Rgb<f64>)
     -> Result<Background<Self>, ShapeError>;
@@ -197,6 +200,14 @@ macro_rules! make {
 
             fn light(spec: &LightSpec) -> Result<Light<$a>, ShapeError> {
                 Light::<$a>::try_new(spec)
+            }
+
+            fn area_light(spec: &AreaLightSpec<'_>) -> Result<AreaLight<$a>, ShapeError> {
+                AreaLight::<$a>::try_new(spec)
+            }
+
+            fn fan_corner(corners: &[Point], i: usize) -> Result<FanCorner<$a>, ShapeError> {
+                AreaLight::<$a>::try_fan(corners, i)
             }
 
             fn uniform(radiance: Rgb<f64>) -> Result<Background<$a>, ShapeError> {

@@ -23,14 +23,16 @@ use whitted::gather::{Record, RecordSpec, VirtualLight, VirtualLights};
 use whitted::gather::{VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
+use whitted::scene::{self, Absorption, Filter, Mapping, Pattern, Texels, Texture, TextureSpec};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
-use whitted::scene::{Group, Instance, Light, LightSpec};
+use whitted::scene::{Group, Instance, Light, LightSpec, Selection};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
+use whitted::scene::{TriangleUv, Wrap};
 use whitted::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon, Region};
 use whitted::shape::{SmoothTriangle, Solid, Sphere, Triangle};
 use whitted::tally::{Counts, Tally};
-use whitted::trace::{Tracer, Work};
+use whitted::trace::{Terms, Tracer, Work};
 use whitted::{Color, Picture};
 
 /// Where linking starts from.
@@ -60,6 +62,10 @@ macro_rules! arithmetic {
                 emission: any([0.1; 3]),
                 shadow: any(Shadow::Filtered),
                 pattern: any(Some(PatternSpec { cell: [1.0; 3], offset: [0.5; 3], other: 1 })),
+                texture: any(Some(0)),
+                bump: any(Some(1)),
+                fresnel: any(true),
+                absorption: any(Some(0)),
             };
             let materials = any([Material::<$a>::try_new(&spec).ok()?; 2]);
             let spheres = any([Sphere::<$a>::try_new(any([0.0; 3]), any(1.0), any(0)).ok()?; 2]);
@@ -118,6 +124,20 @@ macro_rules! arithmetic {
                 samples: any([2, 9]),
                 body: any(Some(1)),
             };
+            let image =
+                scene::Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
+            let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
+            any(image.size());
+            let texture = TextureSpec {
+                mapping: any(Mapping::Spherical),
+                other: any(Some(1)),
+                height: any(0.5),
+                ..TextureSpec::of(any(Pattern::Image(image)))
+            };
+            let textures = any([Texture::<$a>::try_new(&any(texture)).ok()?; 2]);
+            let uvs = any([TriangleUv::try_new(any([[0.5; 2]; 3])).ok()?; 4]);
+            let absorptions =
+                any([Absorption::<$a>::try_new(any([0.5; 3]), any([0.1; 3])).ok()?; 1]);
             let (corner, edge) = (any([1.0; 3]), any([1.0; 3]));
             let area_lights = any([
                 AreaLight::<$a>::try_new(&spec(Area::Rectangle { corner, u: edge, v: edge }))
@@ -148,6 +168,7 @@ macro_rules! arithmetic {
                 smooth_triangles: &smooth,
                 polygons: &polygons,
                 edges: &edges,
+                uvs: &uvs,
                 cuboids: &cuboids,
                 discs: &discs,
                 cylinders: &cylinders,
@@ -176,6 +197,7 @@ macro_rules! arithmetic {
                 smooth_triangles: any(&smooth),
                 polygons: any(&polygons),
                 edges: any(&edges),
+                uvs: any(&uvs),
                 cuboids: any(&cuboids),
                 discs: any(&discs),
                 cylinders: any(&cylinders),
@@ -185,10 +207,13 @@ macro_rules! arithmetic {
                 planes: any(&planes),
                 tree: any(None),
                 materials: any(&materials),
+                textures: any(&textures),
+                absorptions: any(&absorptions),
                 lights: any(&lights),
                 area_lights: any(&area_lights),
                 light_corners: any(&fan),
                 light_jitter: any(Some(3)),
+                selection: any(Selection::<$a>::try_above(any(0.1)).ok()?),
                 ambient: Ambient::<$a>::try_new(any([0.1; 3])).ok()?,
                 indirect: any(Indirect::None),
                 background: any(background.ok()?),
@@ -225,7 +250,6 @@ macro_rules! arithmetic {
             }
             let scene = any(scene.ok()?);
             any(scene.parts());
-            any(scene.lists(any(2)));
             let scene = any(scene.with_instances(any(&instances)).ok()?);
             any(spheres[0].at(any(spheres[1].center())).radius());
 
@@ -331,6 +355,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let settings = Settings {
         depth: any(5),
         sampling: any(Sampling::Corners),
+        terms: any(Terms::DIRECT.with(Terms::AMBIENT).without(Terms::NONE)),
         ..Settings::new(any(60), any(60))
     };
     any(settings.sampling.samples(any(60)));
@@ -361,7 +386,7 @@ fn render<A: Arithmetic, T: Tally + Copy>(
     let renderer = picture::<A, T, eg::Gray4>(renderer, output)?;
     any(renderer.tally());
 
-    let tracer = any(Tracer::new(scene, any(5)).with_key(any(7)));
+    let tracer = any(Tracer::new(scene, any(5)).with_key(any(7)).with_terms(any(Terms::ALL)));
     let mut tally = tally;
     any(tracer.nearest(&ray, &mut work, &mut tally));
     any(tracer.radiance(ray, &mut work, &mut tally));
@@ -494,6 +519,8 @@ fn lengths<A: Arithmetic>() {
     any(A::weight(w, w));
     any(A::quotient(w, w));
     any(A::weight_of(u));
+    any(A::relative(r, r));
+    any(A::portion(r, any(7)));
     any(A::fraction(any(7)));
     any(A::share(t, &any(A::normalize(&p).2)));
     any(A::dim(r, w));

@@ -2,7 +2,7 @@
 
 use whitted::blob::{Content, Counts, seal};
 use whitted::gather::Indirect;
-use whitted::scene::Shapes;
+use whitted::scene::{Selection, Shapes};
 
 use super::{Baked, Construct, specs};
 use crate::document::Size;
@@ -29,7 +29,7 @@ impl<A: Construct> Baked<A> {
         let materials: Result<Vec<_>, _> =
             self.placed.materials.iter().map(specs::material).collect();
         let materials = materials.map_err(|e| super::refused::<A>("the material", e, None))?;
-        let lights: Vec<_> = self.placed.lights.iter().map(specs::light).collect();
+        let lights: Vec<_> = self.placed.lights.iter().filter_map(specs::light).collect();
         let content = Content {
             shapes: Shapes {
                 spheres: parts.spheres,
@@ -68,6 +68,9 @@ impl<A: Construct> Baked<A> {
                 ("instances of groups", parts.instances.is_empty()),
                 ("solids", parts.solids.is_empty()),
                 ("area lights", parts.area_lights.is_empty()),
+                ("textures and bumps", parts.textures.is_empty()),
+                ("absorption", parts.absorptions.is_empty()),
+                ("a selection of lights", matches!(parts.selection, Selection::All)),
                 ("interreflection", matches!(parts.indirect, Indirect::None)),
             ]
         })?;

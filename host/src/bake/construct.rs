@@ -6,8 +6,9 @@
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
-    Ambient, Background, Camera, Group, Instance, Light, LightSpec, Material, MaterialSpec, Parts,
-    Rules, Scene, SceneError, Shapes, Transform,
+    Absorption, Ambient, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Group, Instance,
+    Light, LightSpec, Material, MaterialSpec, Parts, Rules, Scene, SceneError, Selection, Shapes,
+    Texture, TextureSpec, Transform,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
@@ -147,9 +148,24 @@ construct! {
     /// See [`Material`].
     fn new_material(spec: &MaterialSpec) -> Made<Material<Self>>
         = |A| Material::<A>::try_new(spec);
+    /// See [`Texture`].
+    fn new_texture(spec: &TextureSpec<'static>) -> Made<Texture<'static, Self>>
+        = |A| Texture::<A>::try_new(spec);
+    /// See [`Absorption`].
+    fn new_absorption(front: Point, behind: Point) -> Made<Absorption<Self>>
+        = |A| Absorption::<A>::try_new(front, behind);
     /// See [`Light`].
     fn new_light(spec: &LightSpec) -> Made<Light<Self>>
         = |A| Light::<A>::try_new(spec);
+    /// See [`AreaLight`].
+    fn new_area_light(spec: &AreaLightSpec<'_>) -> Made<AreaLight<Self>>
+        = |A| AreaLight::<A>::try_new(spec);
+    /// See [`Selection`].
+    fn new_threshold(radiance: f64) -> Made<Selection<Self>>
+        = |A| Selection::<A>::try_above(radiance);
+    /// See [`AreaLight::fan`].
+    fn new_fan_corner(corners: &[Point], i: usize) -> Made<FanCorner<Self>>
+        = |A| AreaLight::<A>::try_fan(corners, i);
     /// See [`Camera`]; `tangent` is that of half the vertical angle from edge to edge.
     fn new_camera(eye: Point, at: Point, up: Point, tangent: f64) -> Made<Camera<Self>>
         = |A| Camera::<A>::try_look_at(eye, at, up, tangent);

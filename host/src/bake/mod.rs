@@ -3,6 +3,7 @@
 mod blob;
 mod construct;
 mod group;
+mod light;
 mod place;
 mod shapes;
 mod source;
@@ -11,15 +12,19 @@ mod specs;
 pub use blob::{Flash, parts_of};
 pub use construct::Construct;
 use group::Groups;
+use light::Lights;
 pub use place::Placement;
 use shapes::Shapes;
 pub use shapes::Thrift;
 
 use whitted::blob::CameraSpec;
-use whitted::scene::{Ambient, Background, Camera, Light, Material, Parts, Rules, Scene};
+use whitted::scene::{
+    Absorption, Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules,
+    Scene, Selection, Shadow, Texture, TextureSpec,
+};
 use whitted::shape::ShapeError;
 
-use crate::document::{self, Document, Size};
+use crate::document::{self, Document, LightSelection, ShadowThrough, Size};
 use crate::error::{Flaw, Problem};
 use std::path::Path;
 
@@ -32,7 +37,9 @@ pub struct Baked<A: Construct> {
     shapes: Shapes<A>,
     groups: Groups<A>,
     materials: Vec<Material<A>>,
-    lights: Vec<Light<A>>,
+    textures: Vec<Texture<'static, A>>,
+    absorptions: Vec<Absorption<A>>,
+    lights: Lights<A>,
     ambient: Ambient<A>,
     background: Background<A>,
 }
@@ -52,22 +59,23 @@ impl<A: Construct> Baked<A> {
     /// What of it the arithmetic can't hold, with its line.
     pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
-        let placed = placement.place(document);
+        let mut placed = placement.place(document);
+        let bodies = placed.embody();
         let background = match placed.background {
             document::Background::Color(color) => A::new_uniform(color),
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
+        let detail = detail(&placed)?;
+        let file = |i| placed.file_of_shape(i);
+        let shapes = Shapes::new(&placed.shapes, placed.bounds(), file, thrift)?;
         let baked = Self {
             placement,
-            shapes: Shapes::new(
-                &placed.shapes,
-                placed.bounds(),
-                |i| placed.file_of_shape(i),
-                thrift,
-            )?,
             groups: Groups::new(&placed, thrift)?,
             materials: materials(&placed)?,
-            lights: lights(&placed)?,
+            textures: detail.textures,
+            absorptions: detail.absorptions,
+            lights: Lights::new(&placed, &shapes, &bodies)?,
+            shapes,
             ambient: A::new_ambient(placed.ambient)
                 .map_err(|e| refused::<A>("the ambient", e, None))?,
             background: background.map_err(|e| refused::<A>("the background", e, None))?,
@@ -88,7 +96,18 @@ impl<A: Construct> Baked<A> {
         let scene: Result<Scene<'_, A>, _> = A::new_scene(Parts {
             instances: &instances,
             materials: &self.materials,
-            lights: &self.lights,
+            textures: &self.textures,
+            absorptions: &self.absorptions,
+            lights: &self.lights.points,
+            area_lights: &self.lights.areas,
+            light_corners: &self.lights.corners,
+            light_jitter: rules.light_jitter,
+            selection: match rules.lights {
+                LightSelection::All => Selection::All,
+                LightSelection::Choose(count) => Selection::Choose(count),
+                LightSelection::Threshold(radiance) => A::new_threshold(radiance)
+                    .map_err(|e| refused::<A>("the threshold of the lights", e, None))?,
+            },
             ambient: self.ambient,
             background: self.background,
             rules: Rules {
@@ -155,21 +174,78 @@ fn refused<A: Construct>(what: &str, error: ShapeError, line: Option<usize>) -> 
 }
 
 fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw> {
-    let make = |m: &document::Material| {
-        let made = specs::material(m).and_then(|spec| A::new_material(&spec));
-        made.map_err(|error| refused::<A>("the material", error, Some(m.line)))
+    // Numbered as `detail` lists them.
+    let (mut textures, mut absorptions) = (0u16, 0u16);
+    let next = |wanted: bool, count: &mut u16| {
+        wanted.then(|| {
+            let index = *count;
+            *count = count.saturating_add(1);
+            index
+        })
+    };
+    let mut make = |m: &document::Material| {
+        let refuse = |error| refused::<A>("the material", error, Some(m.line));
+        let pattern = match &m.checker {
+            None => None,
+            Some(checker) => Some(PatternSpec {
+                cell: checker.cell,
+                offset: checker.offset,
+                other: u16::try_from(checker.other).map_err(|_| refuse(ShapeError::Material))?,
+            }),
+        };
+        A::new_material(&MaterialSpec {
+            ambient: m.ambient,
+            diffuse: m.diffuse,
+            specular: m.specular,
+            shininess: m.shininess,
+            reflection: m.reflection,
+            transmission: m.transmission,
+            index_front: m.index_front,
+            index_behind: m.index_behind,
+            emission: m.emission,
+            shadow: match m.shadow {
+                ShadowThrough::Opaque => Shadow::Opaque,
+                ShadowThrough::Filtered => Shadow::Filtered,
+                ShadowThrough::None => Shadow::None,
+            },
+            pattern,
+            texture: next(m.texture.is_some(), &mut textures),
+            bump: next(m.bump.is_some(), &mut textures),
+            fresnel: m.fresnel,
+            absorption: next(m.absorbs(), &mut absorptions),
+        })
+        .map_err(refuse)
     };
     let from = |i| document.file_of_material(i);
     let all = document.materials.iter().enumerate();
     all.map(|(i, m)| make(m).map_err(|flaw| flaw.within(from(i)))).collect()
 }
 
-fn lights<A: Construct>(document: &Document) -> Result<Vec<Light<A>>, Flaw> {
-    let make = |l: &document::Light| {
-        A::new_light(&specs::light(l))
-            .map_err(|error| refused::<A>("the light", error, Some(l.line)))
-    };
-    let from = |i| document.file_of_light(i);
-    let all = document.lights.iter().enumerate();
-    all.map(|(i, l)| make(l).map_err(|flaw| flaw.within(from(i)))).collect()
+/// What materials name by index.
+struct Detail<A: Construct> {
+    textures: Vec<Texture<'static, A>>,
+    absorptions: Vec<Absorption<A>>,
+}
+
+/// The textures and media of all materials, one after the other, each material's bump after its
+/// texture.
+fn detail<A: Construct>(document: &Document) -> Result<Detail<A>, Flaw> {
+    let mut detail = Detail { textures: Vec::new(), absorptions: Vec::new() };
+    for (i, material) in document.materials.iter().enumerate() {
+        let from = document.file_of_material(i);
+        let refuse = |what, e, line| refused::<A>(what, e, Some(line)).within(from);
+        for texture in [&material.texture, &material.bump].into_iter().flatten() {
+            let refuse = |e| refuse("the texture", e, texture.line);
+            let other = texture.other.map(u16::try_from).transpose();
+            let other = other.map_err(|_| refuse(ShapeError::Material))?;
+            let spec = TextureSpec { other, ..texture.spec };
+            detail.textures.push(A::new_texture(&spec).map_err(refuse)?);
+        }
+        if material.absorbs() {
+            let [front, behind] = material.absorption;
+            let made = A::new_absorption(front, behind);
+            detail.absorptions.push(made.map_err(|e| refuse("the absorption", e, material.line))?);
+        }
+    }
+    Ok(detail)
 }

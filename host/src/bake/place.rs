@@ -2,7 +2,7 @@
 //!
 //! Floating point takes a scene as it is. Fixed point has one step everywhere, so a scene is
 //! moved to the origin and scaled by a power of two until it fills the range; lengths that the
-//! scene states (checker cells, positions of lights and camera) follow, and the intensity of a
+//! scene states (cells of patterns, positions of lights and camera) follow, and the intensity of a
 //! light with falloff grows with the square.
 //!
 //! What the range is filled with:
@@ -13,9 +13,11 @@
 //!   made directional, which it is to the eye; anything nearer keeps its place. Moving a light
 //!   nearer would change directions by as much as it gains range, so that is never done.
 
+use whitted::scene::{Mapping, TextureSpec};
+
 use crate::document::{
-    Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, length, scaled,
-    sub,
+    Area, Background, Body, Camera, Document, Falloff, Light, LightKind, Material, Point, length,
+    scaled, sub,
 };
 
 /// The farthest a light or the camera may lie along an axis: the range is ±1024, and a
@@ -58,7 +60,7 @@ impl Placement {
         let radius = half * 3f64.sqrt();
         let lights =
             document.lights.iter().filter(|light| planes || !parallel(light, center, radius));
-        let positions = lights.filter_map(Light::position).chain([document.camera.eye]);
+        let positions = lights.flat_map(Light::reach).chain([document.camera.eye]);
         for position in positions {
             let farthest = sub(position, center).map(f64::abs).into_iter().fold(0.0, f64::max);
             if farthest > 0.0 {
@@ -95,6 +97,12 @@ impl Placement {
         let Camera { eye, look_at, .. } = &mut placed.camera;
         (*eye, *look_at) = (self.point(*eye), self.point(*look_at));
         placed.materials.iter_mut().for_each(|material| self.material(material));
+        // Ways are measured in the scene, within groups too.
+        for material in &mut placed.materials {
+            for rate in material.absorption.as_flattened_mut() {
+                *rate /= self.scale();
+            }
+        }
         for index in 0..document.groups.len() {
             self.group(document, index, &mut placed);
         }
@@ -112,7 +120,22 @@ impl Placement {
         placed
     }
 
+    fn texture(&self, spec: &mut TextureSpec<'_>) {
+        let s = self.scale();
+        spec.origin = self.point(spec.origin);
+        spec.height *= s;
+        match spec.mapping {
+            Mapping::Planar => spec.size = scaled(spec.size, s),
+            Mapping::Cylindrical => spec.size[1] *= s,
+            Mapping::Spherical | Mapping::Uv => {}
+        }
+    }
+
+    /// What of a material lies in a space.
     fn material(&self, material: &mut Material) {
+        for texture in [&mut material.texture, &mut material.bump].into_iter().flatten() {
+            self.texture(&mut texture.spec);
+        }
         if let Some(checker) = &mut material.checker {
             checker.cell = scaled(checker.cell, self.scale());
             checker.offset = self.point(checker.offset);
@@ -148,7 +171,9 @@ impl Placement {
             let Some(original) = document.materials.get(old) else { return old };
             let mut here = original.clone();
             space.material(&mut here);
-            if materials.get(old).is_some_and(|there| *there == here) {
+            let Some(there) = materials.get(old) else { return old };
+            here.absorption = there.absorption;
+            if *there == here {
                 return old;
             }
             materials.push(here);
@@ -183,11 +208,28 @@ impl Placement {
         }
         match &mut light.kind {
             LightKind::Directional { .. } => {}
+            LightKind::Area { area, .. } => self.area(area),
             LightKind::Point { position, falloff } | LightKind::Spot { position, falloff, .. } => {
                 *position = self.point(*position);
                 if *falloff == Falloff::InverseSquare {
                     light.color = light.color.map(|c| c * self.scale() * self.scale());
                 }
+            }
+        }
+    }
+
+    fn area(&self, area: &mut Area) {
+        let s = self.scale();
+        match area {
+            Area::Rectangle { corner, edges } => {
+                *corner = self.point(*corner);
+                *edges = edges.map(|edge| scaled(edge, s));
+            }
+            Area::Triangle { corners } => *corners = corners.map(|c| self.point(c)),
+            Area::Polygon { corners } => corners.iter_mut().for_each(|c| *c = self.point(*c)),
+            Area::Disc { center, radius, .. } | Area::Sphere { center, radius } => {
+                *center = self.point(*center);
+                *radius *= s;
             }
         }
     }
@@ -230,6 +272,7 @@ impl Placement {
 /// would move.
 fn parallel(light: &Light, center: Point, radius: f64) -> bool {
     match light.kind {
+        LightKind::Area { .. } => false,
         LightKind::Point { position, .. } => radius < PARALLEL * length(sub(position, center)),
         LightKind::Directional { .. } | LightKind::Spot { .. } => false,
     }
@@ -291,7 +334,8 @@ mod tests {
         let document = document(&light("position = [100, 31643, 100]\nintensity = 1e9"), "");
         let placement = Placement::filling(&document);
         assert_eq!(placement.log2_scale, 6);
-        let light = placement.place(&document).lights[0];
+        let placed = placement.place(&document);
+        let light = &placed.lights[0];
         assert!(matches!(light.kind, LightKind::Directional { direction } if direction[1] < 0.0));
         assert!((light.color[0] - 1e9 / 31623f64.powi(2)).abs() < 1e-9);
     }

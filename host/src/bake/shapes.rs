@@ -1,7 +1,7 @@
 //! The shapes of a scene by kinds, as the core numbers them, and the octree over them.
 
 use whitted::octree::{BuildError, Built, Cube, Extent, Limits, Octree, build_into};
-use whitted::scene::Parts;
+use whitted::scene::{Parts, TriangleUv};
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
     SmoothTriangle, Solid, Sphere, Triangle,
@@ -67,6 +67,9 @@ pub(super) struct Shapes<A: Construct> {
     smooth_triangles: Kind<SmoothTriangle<A>>,
     polygons: Kind<Polygon<A>>,
     edges: Vec<PolygonEdge<A>>,
+    /// The flat triangles', then the smooth ones'; empty if none has any.
+    uvs: Vec<TriangleUv>,
+    smooth_uvs: Vec<TriangleUv>,
     cuboids: Kind<Cuboid<A>>,
     discs: Kind<Disc<A>>,
     cylinders: Kind<Cylinder<A>>,
@@ -135,6 +138,8 @@ impl<A: Construct> Shapes<A> {
             smooth_triangles: Kind::default(),
             polygons: Kind::default(),
             edges: Vec::new(),
+            uvs: Vec::new(),
+            smooth_uvs: Vec::new(),
             cuboids: Kind::default(),
             discs: Kind::default(),
             cylinders: Kind::default(),
@@ -151,6 +156,12 @@ impl<A: Construct> Shapes<A> {
                 |e| super::refused::<A>(shape.body.name(), e, Some(shape.line)).within(from);
             let material = u16::try_from(shape.material).map_err(|_| refuse(ShapeError::Material));
             shapes.add(&shape.body, material?, index).map_err(refuse)?;
+            shapes.add_uv(shape).map_err(refuse)?;
+        }
+        let smooth = std::mem::take(&mut shapes.smooth_uvs);
+        shapes.uvs.extend(smooth);
+        if all.iter().all(|shape| shape.uv.is_none()) {
+            shapes.uvs.clear();
         }
         shapes.grow(thrift)?;
         Ok(shapes)
@@ -213,6 +224,17 @@ impl<A: Construct> Shapes<A> {
         Ok(())
     }
 
+    /// A triangle's texture coordinates, (0, 0) if it has none.
+    fn add_uv(&mut self, shape: &Shape) -> Result<(), ShapeError> {
+        let uvs = match shape.body {
+            Body::Triangle { .. } => &mut self.uvs,
+            Body::SmoothTriangle { .. } => &mut self.smooth_uvs,
+            _ => return Ok(()),
+        };
+        uvs.push(TriangleUv::try_new(shape.uv.unwrap_or_default())?);
+        Ok(())
+    }
+
     /// Builds the tree.
     fn grow(&mut self, thrift: Thrift) -> Result<(), Flaw> {
         let mut extents = Vec::new();
@@ -252,6 +274,7 @@ impl<A: Construct> Shapes<A> {
             smooth_triangles: &self.smooth_triangles.shapes,
             polygons: &self.polygons.shapes,
             edges: &self.edges,
+            uvs: &self.uvs,
             cuboids: &self.cuboids.shapes,
             discs: &self.discs.shapes,
             cylinders: &self.cylinders.shapes,
@@ -292,6 +315,11 @@ impl<A: Construct> Shapes<A> {
     /// The tree's words, its cube, and the step of its grid, if there is a tree.
     pub(super) fn words(&self) -> Option<(&[u32], Cube, i8)> {
         self.tree.as_ref().map(|tree| (tree.words.as_slice(), tree.cube, self.log2_step))
+    }
+
+    /// The number of the shape of this index in the document.
+    pub(super) fn number(&self, index: usize) -> Option<u32> {
+        (0..self.bounded()).find(|&number| self.origin(number) == Ok(index))
     }
 
     /// Words and levels of the tree, if there is one.

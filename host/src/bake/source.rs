@@ -184,7 +184,7 @@ impl<A: Construct> Baked<A> {
         let materials: Vec<String> = made.map(|spec| material(&spec)).collect();
         write_list(to, "MATERIALS", "whitted::scene::Material<A>", &materials)?;
         let lights: Vec<String> =
-            self.placed.lights.iter().map(|l| light(&specs::light(l))).collect();
+            self.placed.lights.iter().filter_map(specs::light).map(|l| light(&l)).collect();
         write_list(to, "LIGHTS", "whitted::scene::Light<A>", &lights)?;
         let setting = specs::setting(&self.placed, size);
         write!(
@@ -240,6 +240,10 @@ fn material(spec: &MaterialSpec) -> String {
         emission,
         shadow,
         pattern,
+        fresnel,
+        texture: _,
+        bump: _,
+        absorption: _,
     } = spec;
     let shadow = match shadow {
         Shadow::Opaque => "Opaque",
@@ -257,7 +261,8 @@ fn material(spec: &MaterialSpec) -> String {
          diffuse: {diffuse:?}, specular: {specular:?}, shininess: {shininess:?}, \
          reflection: {reflection:?}, transmission: {transmission:?}, \
          index_front: {index_front:?}, index_behind: {index_behind:?}, emission: {emission:?}, \
-         shadow: whitted::scene::Shadow::{shadow}, pattern: {pattern} }})"
+         shadow: whitted::scene::Shadow::{shadow}, pattern: {pattern}, \
+         fresnel: {fresnel}, ..whitted::scene::MaterialSpec::BLACK }})"
     )
 }
 

@@ -32,16 +32,21 @@ pub(super) fn material(m: &document::Material) -> Result<MaterialSpec, ShapeErro
             ShadowThrough::None => Shadow::None,
         },
         pattern,
+        fresnel: m.fresnel,
+        // Textures and media lie elsewhere; baked forms refuse them.
+        ..MaterialSpec::BLACK
     })
 }
 
-pub(super) fn light(light: &document::Light) -> LightSpec {
+/// A light that is a point or far away; `None` for one with an area.
+pub(super) fn light(light: &document::Light) -> Option<LightSpec> {
     let weakens = |falloff| match falloff {
         document::Falloff::None => Falloff::None,
         document::Falloff::InverseSquare => Falloff::InverseSquare,
     };
     let intensity = light.color;
-    match light.kind {
+    Some(match light.kind {
+        LightKind::Area { .. } => return None,
         LightKind::Point { position, falloff } => {
             LightSpec::Point { position, intensity, falloff: weakens(falloff) }
         }
@@ -54,7 +59,7 @@ pub(super) fn light(light: &document::Light) -> LightSpec {
             cos_inner: inner.to_radians().cos(),
             cos_outer: outer.to_radians().cos(),
         },
-    }
+    })
 }
 
 pub(super) fn camera(camera: &document::Camera, size: Size) -> CameraSpec {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use whitted::math::Fixed;
 use whitted_host::bake::{Baked, Construct, Placement};
-use whitted_host::document::{Body, Document, Size};
+use whitted_host::document::{Body, Document, Material, Size};
 use whitted_host::need::{self, BOARDS, PROGRAM, Pixel, RESERVE};
 use whitted_host::read;
 
@@ -25,13 +25,16 @@ pub(super) fn run(file: &Path, quiet: bool) -> Result<(), Failure> {
         let (instances, groups) = (document.instances.len(), document.groups.len());
         line("instances", format_args!("{instances} of {}", plural(groups, "group")))?;
     }
-    line("materials", format_args!("{}", document.materials.len()))?;
+    let features = features(&document);
+    let features = if features.is_empty() { String::new() } else { format!(" ({features})") };
+    line("materials", format_args!("{}{features}", document.materials.len()))?;
     let lights: Vec<&str> = document.lights.iter().map(|light| light.name()).collect();
     line("lights", format_args!("{} {}", lights.len(), listed(&lights)))?;
     if let Some(size) = document.size {
         line("size", format_args!("{size}"))?;
     }
     line("depth", format_args!("{}", document.rules.depth))?;
+    line("paths", format_args!("{}", super::covered(&document, document.rules.depth)))?;
     if let Some(bounds) = document.bounds() {
         let [low, high] = [bounds.low, bounds.high].map(|p| p.map(|x| format!("{x:.4}")).join(" "));
         let planes = document.shapes.iter().any(|s| matches!(s.body, Body::Plane { .. }));
@@ -88,6 +91,26 @@ fn rough(seconds: f64) -> String {
         s if s < 99.5 => format!("{s:.0} s"),
         s => format!("{:.0} min", s / 60.0),
     }
+}
+
+/// How many materials have what beyond a colour.
+fn features(document: &Document) -> String {
+    type Has = fn(&Material) -> bool;
+    let all: [(&str, Has); 9] = [
+        ("with a highlight", |m| m.specular.iter().any(|&k| k > 0.0)),
+        ("mirroring", Material::reflects),
+        ("transmitting", Material::transmits),
+        ("by Fresnel's formula", |m| m.fresnel),
+        ("absorbing", Material::absorbs),
+        ("emitting", |m| m.emission.iter().any(|&e| e > 0.0)),
+        ("checkered", |m| m.checker.is_some()),
+        ("textured", |m| m.texture.is_some()),
+        ("bumped", |m| m.bump.is_some()),
+    ];
+    let count = |has: Has| document.materials.iter().filter(|m| has(m)).count();
+    let found = all.map(|(name, has)| (count(has), name));
+    let found = found.iter().filter(|(count, _)| *count > 0);
+    found.map(|(count, name)| format!("{count} {name}")).collect::<Vec<_>>().join(", ")
 }
 
 fn line(name: &str, text: std::fmt::Arguments<'_>) -> Result<(), Failure> {

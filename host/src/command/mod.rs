@@ -12,7 +12,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use whitted_host::document::Size;
+use whitted::trace::{Paths, Terms};
+use whitted_host::document::{Document, Size};
 use whitted_host::error::SceneError;
 use whitted_host::show::Show;
 
@@ -89,6 +90,11 @@ impl From<ShowName> for Show {
             ShowName::Octree => Self::Octree,
         }
     }
+}
+
+/// The paths of light that pictures of a scene cover. Interreflection isn't there to show.
+fn covered(document: &Document, depth: u8) -> Paths {
+    document.rules.terms.without(Terms::INDIRECT).paths(depth)
 }
 
 fn size(text: &str) -> Result<Size, String> {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use whitted::math::Fixed;
+use whitted::trace::{Paths, Terms};
 use whitted_host::bake::{Baked, Construct};
 use whitted_host::document::{Document, Size};
 use whitted_host::error::Flaw;
@@ -47,6 +48,11 @@ pub(super) struct Options {
     /// How many threads trace; the picture is the same for any number [default: one for each core]
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
+    /// Which terms of radiance the picture shows, as in direct,specular: emission, ambient, direct,
+    /// highlight, indirect, background, reflection, transmission, specular (both), all [default: the
+    /// scene's, or all]
+    #[arg(long, value_name = "TERMS", value_parser = whitted_host::terms::parse)]
+    terms: Option<Terms>,
     /// Write ray counts and times to a file, as JSON
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
@@ -57,7 +63,8 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
-    let document = read::read(&options.scene)?;
+    let mut document = read::read(&options.scene)?;
+    document.rules.terms = options.terms.unwrap_or(document.rules.terms);
     let load = start.elapsed().as_secs_f64();
     if !quiet {
         warn(&options.scene, &document);
@@ -78,6 +85,7 @@ pub(super) fn showcase(quiet: bool) -> Result<(), Failure> {
         sampling: None,
         deadline: None,
         threads: None,
+        terms: None,
         stats: None,
         show: None,
     };
@@ -109,13 +117,14 @@ fn paint(
     }
     .map_err(|flaw| flaw.of(file))?;
 
+    let paths = super::covered(document, settings.depth);
     let picture = &rendered.picture;
     let to_stdout = out == Path::new("-");
     let written = if to_stdout { picture.write_png(stdout().lock()) } else { picture.save(out) };
     written.map_err(|error| Failure::Output(out.into(), error))?;
     let seconds = Seconds { load, build, render: rendered.time.as_secs_f64() };
     if let Some(path) = &options.stats {
-        let stats = Stats::new(settings.size, arithmetic, &rendered.counts, seconds);
+        let stats = Stats::new(settings.size, arithmetic, paths, &rendered.counts, seconds);
         save(path, |to| serde_json::to_writer_pretty(to, &stats).map_err(Into::into))
             .map_err(|error| Failure::Output(path.into(), error))?;
     }
@@ -125,7 +134,7 @@ fn paint(
     if stdout().is_terminal() {
         print(format_args!("{}", preview(picture)))?;
     }
-    report(&rendered, arithmetic, seconds)?;
+    report(&rendered, arithmetic, paths, seconds)?;
     print(format_args!("{note}"))?;
     print(format_args!("{}\n", out.display()))
 }
@@ -177,7 +186,12 @@ fn preview(picture: &Picture) -> String {
     picture.to_terminal(columns.into(), lines.saturating_sub(5).max(10).into())
 }
 
-fn report(rendered: &Rendered, arithmetic: &str, seconds: Seconds) -> Result<(), Failure> {
+fn report(
+    rendered: &Rendered,
+    arithmetic: &str,
+    paths: Paths,
+    seconds: Seconds,
+) -> Result<(), Failure> {
     let counts = &rendered.counts;
     let size = rendered.picture.size();
     print(format_args!(
@@ -191,5 +205,6 @@ fn report(rendered: &Rendered, arithmetic: &str, seconds: Seconds) -> Result<(),
         counts.reflection,
         counts.transmission,
         counts.shadow
-    ))
+    ))?;
+    print(format_args!("paths {paths}\n"))
 }

@@ -1,6 +1,6 @@
 //! Materials: every coefficient of the model, per channel.
 
-use super::{Point, Rgb};
+use super::{Point, Rgb, Texture};
 
 /// What a shadow ray finds where it meets the material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,14 @@ pub struct Material {
     pub shadow: ShadowThrough,
     /// Cells of another material.
     pub checker: Option<Checker>,
+    /// What `diffuse` and `ambient` are multiplied by.
+    pub texture: Option<Texture>,
+    /// What bends the normal that shading sees.
+    pub bump: Option<Texture>,
+    /// Reflection and transmission are weighted by Fresnel's formula.
+    pub fresnel: bool,
+    /// What a unit of length takes of the light, as the a of exp(−a·d), before the surface and behind.
+    pub absorption: [Rgb; 2],
     /// The line of the file that it starts on.
     pub line: usize,
 }
@@ -71,6 +79,10 @@ impl Material {
             emission: [0.0; 3],
             shadow: ShadowThrough::Opaque,
             checker: None,
+            texture: None,
+            bump: None,
+            fresnel: false,
+            absorption: [[0.0; 3]; 2],
             line,
         }
     }
@@ -78,6 +90,11 @@ impl Material {
     /// Whether light passes.
     pub fn transmits(&self) -> bool {
         self.transmission.iter().any(|&k| k > 0.0)
+    }
+
+    /// Whether a medium at its sides takes light.
+    pub fn absorbs(&self) -> bool {
+        self.absorption.as_flattened().iter().any(|&a| a > 0.0)
     }
 
     /// Whether it mirrors.

@@ -17,18 +17,20 @@ mod place;
 mod rules;
 mod shape;
 mod solid;
+mod texture;
 mod transform;
 mod vector;
 
 pub use background::Background;
 pub use camera::{Camera, Span};
 pub use group::{Group, Instance};
-pub use light::{Falloff, Light, LightKind};
+pub use light::{Area, Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
-pub use rules::Rules;
+pub use rules::{LightSelection, Rules};
 pub use shape::{Body, Shape};
 pub use solid::{Made, Solid};
+pub use texture::Texture;
 pub use transform::Transform;
 pub use vector::{Bounds, Point, Rgb, add, cross, dot, length, normalized, scaled, sub};
 
@@ -113,11 +115,37 @@ pub struct Included {
 }
 
 impl Document {
-    /// The box around all shapes that end; `None` where there are none.
+    /// The box around all shapes that end, and visible lights; `None` where there are none.
     pub fn bounds(&self) -> Option<Bounds> {
+        let shown = self.lights.iter().filter_map(|light| light.body()?.bounds());
         let shapes = self.shapes.iter().filter_map(|shape| shape.body.bounds());
         let instances = self.instances.iter().filter_map(|instance| instance.bounds(self));
-        shapes.chain(instances).reduce(Bounds::union)
+        shapes.chain(shown).chain(instances).reduce(Bounds::union)
+    }
+
+    /// Adds the shapes that show visible lights, of materials that emit the same; for each light
+    /// the index of its shape.
+    pub fn embody(&mut self) -> Vec<Option<usize>> {
+        let mut indices = Vec::new();
+        for light in &self.lights {
+            let Some(body) = light.body() else {
+                indices.push(None);
+                continue;
+            };
+            let like = Material::matt(light.line);
+            let (emission, black) = (light.color, [0.0; 3]);
+            indices.push(Some(self.shapes.len()));
+            let material = self.materials.len();
+            self.shapes.push(Shape { body, material, uv: None, line: light.line });
+            self.materials.push(Material {
+                name: "light".into(),
+                emission,
+                diffuse: black,
+                ambient: black,
+                ..like
+            });
+        }
+        indices
     }
 
     /// The file that a shape came from, if it isn't the document's own.

@@ -131,13 +131,17 @@ impl Light {
     /// Lengths don't all grow by the same.
     pub fn placed(&self, by: &Transform) -> Result<Self, Refusal> {
         let scale = by.uniform_scale().ok_or(LIT)?;
-        let mut light = *self;
+        let mut light = self.clone();
         match &mut light.kind {
             LightKind::Point { position, .. } => *position = by.point(*position),
             LightKind::Directional { direction } => *direction = by.direction(*direction),
             LightKind::Spot { position, direction, .. } => {
                 *position = by.point(*position);
                 *direction = by.direction(*direction);
+            }
+            LightKind::Area { area, .. } => {
+                *area = area.placed(by, scale);
+                return Ok(light);
             }
         }
         if self.falloff() == Falloff::InverseSquare {
@@ -175,6 +179,9 @@ impl Document {
         for checker in materials.iter_mut().filter_map(|m| m.checker.as_mut()) {
             checker.other += first;
         }
+        for other in materials.iter_mut().filter_map(|m| m.texture.as_mut()?.other.as_mut()) {
+            *other += first;
+        }
         self.materials.append(&mut materials);
         // Files that the other file includes keep their names; in a copy they lie further on.
         let part = |shapes, materials, lights, groups, file: &Path| Included {
@@ -201,6 +208,7 @@ impl Document {
                 let misplaced = |why| Misplaced { what: shape.body.name(), line: shape.line, why };
                 for body in shape.body.placed(by).map_err(misplaced)? {
                     let mut placed = super::Shape { body, ..shape.clone() };
+                    placed.uv = super::Shape::uv_placed(shape.uv, by.mirrors());
                     placed.rename(&mut |index| index + first);
                     self.shapes.push(placed);
                 }

@@ -3,6 +3,7 @@
 use whitted::frame::Sampling;
 
 use super::Falloff;
+use whitted::trace::Terms;
 
 /// The switches of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,8 +22,25 @@ pub struct Rules {
     pub cutoff: f64,
     /// The largest depth; the ray from the eye has depth 1.
     pub depth: u8,
+    /// The seed by which shadow rays to area lights are moved at random, if they are.
+    pub light_jitter: Option<u16>,
+    /// Which lights a point asks.
+    pub lights: LightSelection,
+    /// Which terms of radiance a picture shows.
+    pub terms: Terms,
     /// Where in a pixel rays go, unless the command says.
     pub sampling: Sampling,
+}
+
+/// Which lights a point asks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightSelection {
+    /// All.
+    All,
+    /// Those that would add this much to a channel of the pixel, were nothing in their way.
+    Threshold(f64),
+    /// So many, chosen at random by what they would add.
+    Choose(u8),
 }
 
 impl Rules {
@@ -38,6 +56,9 @@ impl Rules {
         lossy_total_reflection: false,
         cutoff: 1.0 / 255.0,
         depth: 5,
+        light_jitter: Some(0),
+        lights: LightSelection::All,
+        terms: Terms::ALL,
         sampling: Sampling::Center,
     };
 
@@ -50,6 +71,9 @@ impl Rules {
         lossy_total_reflection: false,
         cutoff: 0.0,
         depth: 5,
+        light_jitter: Some(0),
+        lights: LightSelection::All,
+        terms: Terms::ALL,
         sampling: Sampling::Center,
     };
 }

@@ -9,11 +9,19 @@ pub struct Shape {
     pub body: Body,
     /// The index of its material.
     pub material: usize,
+    /// Of a triangle: the texture coordinates of its corners, u to the right and v upwards, the whole
+    /// picture from 0 to 1.
+    pub uv: Option<[[f64; 2]; 3]>,
     /// The line of the file that it starts on.
     pub line: usize,
 }
 
 impl Shape {
+    /// Texture coordinates as a transform leaves them, which exchanges corners where it mirrors.
+    pub(crate) fn uv_placed(uv: Option<[[f64; 2]; 3]>, mirrors: bool) -> Option<[[f64; 2]; 3]> {
+        uv.map(|[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] })
+    }
+
     /// Gives every material another index.
     pub fn rename(&mut self, index: &mut impl FnMut(usize) -> usize) {
         self.material = index(self.material);

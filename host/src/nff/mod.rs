@@ -174,7 +174,7 @@ impl Reader<'_> {
             return Err(Problem::degenerate(body.name(), why).at(line));
         }
         let material = self.current(line)?;
-        self.shapes.push(Shape { body, material, line });
+        self.shapes.push(Shape { body, material, uv: None, line });
         Ok(())
     }
 

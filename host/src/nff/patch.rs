@@ -36,7 +36,7 @@ impl Reader<'_> {
             if let Some(why) = body.flaw() {
                 self.warn(line, format!("a part of a {name} is skipped: {why}"));
             } else {
-                self.shapes.push(Shape { body, material, line });
+                self.shapes.push(Shape { body, material, uv: None, line });
             }
         }
         Ok(())

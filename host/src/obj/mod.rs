@@ -287,7 +287,7 @@ impl<'a> Reader<'a> {
                     self.materials.len() - 1
                 })
             });
-            let shape = |body: Body| Shape { body, material, line: face.line };
+            let shape = |body: Body| Shape { body, material, uv: None, line: face.line };
             shapes.extend(faces.bodies.into_iter().map(shape));
         }
         if shapes.is_empty() {

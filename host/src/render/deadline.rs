@@ -7,6 +7,7 @@ use whitted::scene::{Camera, Scene};
 
 use super::{Rendered, Settings, with_renderer};
 use crate::bake::{Baked, Construct};
+use crate::document::Size;
 use crate::error::{Flaw, Problem};
 use crate::picture::Picture;
 
@@ -34,19 +35,21 @@ pub fn render_until<A: Construct>(
     let camera = baked.camera(settings.size)?;
     let passes =
         Passes::new(side).map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
-    baked.with_scene(|scene| draw(scene, &camera, settings, passes, rays))?
+    let core = settings.for_core(baked.document().rules.terms);
+    baked.with_scene(|scene| draw(scene, &camera, settings.size, core, passes, rays))?
 }
 
 fn draw<A: Construct>(
     scene: &Scene<'_, A>,
     camera: &Camera<A>,
-    settings: &Settings,
+    size: Size,
+    core: whitted::frame::Settings,
     mut passes: Passes,
     rays: u64,
 ) -> Result<Shown, Flaw> {
     let start = Instant::now();
-    let mut picture = Picture::new(settings.size);
-    let (progress, counts) = with_renderer(scene, camera, settings.for_core(), |renderer| {
+    let mut picture = Picture::new(size);
+    let (progress, counts) = with_renderer(scene, camera, core, |renderer| {
         let progress = renderer.refine(
             &mut passes,
             |counts| counts.rays() >= rays,

@@ -58,6 +58,32 @@ fn triangle(table: &Table<'_>) -> Result<Vec<Body>, Flaw> {
     }])
 }
 
+/// The texture coordinates of a triangle's corners.
+pub(super) fn uv(table: &Table<'_>) -> Result<Option<[[f64; 2]; 3]>, Flaw> {
+    const WANTED: &str = "a list of three [u, v]";
+    /// The core's range.
+    const FARTHEST_UV: f64 = 7.999;
+    let Some(value) = table.get("uv") else { return Ok(None) };
+    let wrong = |found: usize| {
+        let found = format!("a list of {found} for \"uv\"");
+        Problem::Found { found, wanted: WANTED.into() }.at(value.line)
+    };
+    let mut corners = [[0.0; 2]; 3];
+    let list = value.list("uv", WANTED)?;
+    if list.len() != 3 {
+        return Err(wrong(list.len()));
+    }
+    for (corner, pair) in corners.iter_mut().zip(list) {
+        let pair = pair.list("uv", WANTED)?;
+        let [u, v] = pair.as_slice() else { return Err(wrong(pair.len())) };
+        *corner = [
+            u.number_in("uv", -FARTHEST_UV..FARTHEST_UV)?,
+            v.number_in("uv", -FARTHEST_UV..FARTHEST_UV)?,
+        ];
+    }
+    Ok(Some(corners))
+}
+
 fn polygon(table: &Table<'_>) -> Result<Vec<Body>, Flaw> {
     let value = table.need("corners")?;
     let corners = value.points("corners", "a list of points [[x, y, z], …]")?;

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::table::{Table, Value};
+use super::texture;
 use crate::document::{Checker, Material, ShadowThrough};
 use crate::error::{Flaw, Problem};
+use crate::read::Around;
 
 /// The largest coefficient that is no part of the light: diffuse, ambient, highlight.
 const STRONGEST: f64 = 15.9;
@@ -12,11 +14,16 @@ const STRONGEST: f64 = 15.9;
 /// The largest radiance.
 const BRIGHTEST: f64 = 1000.0;
 
+/// What a unit of length may absorb; more is as good as opaque.
+const DENSEST: f64 = 1e6;
+
 /// The materials read so far, and the checkers that name others.
 pub(super) struct Names<'d> {
     materials: Vec<Material>,
     /// The material, and its checker's table without the name of the other.
     checkers: Vec<(usize, Checker, Value<'d>)>,
+    /// The material, and the name of the one that its texture shows.
+    textures: Vec<(usize, Value<'d>)>,
     /// The materials of included files, by their places in the document.
     included: Vec<Borrowed>,
 }
@@ -30,10 +37,15 @@ struct Borrowed {
 
 impl<'d> Names<'d> {
     /// Reads all materials.
-    pub(super) fn read(tables: &[Table<'d>]) -> Result<Self, Flaw> {
-        let mut names = Self { materials: Vec::new(), checkers: Vec::new(), included: Vec::new() };
+    pub(super) fn read(tables: &[Table<'d>], around: &Around) -> Result<Self, Flaw> {
+        let mut names = Self {
+            materials: Vec::new(),
+            checkers: Vec::new(),
+            textures: Vec::new(),
+            included: Vec::new(),
+        };
         for table in tables {
-            names.add(table)?;
+            names.add(table, around)?;
         }
         Ok(names)
     }
@@ -62,6 +74,16 @@ impl<'d> Names<'d> {
                 return Err(Problem::degenerate("checker", why).at(self.materials[other].line));
             }
             materials[*index].checker = Some(Checker { other, ..*checker });
+        }
+        for (index, name) in &self.textures {
+            let other = self.find(name)?;
+            if other == *index {
+                let why = "its two materials are the same";
+                return Err(Problem::degenerate("texture", why).at(name.line));
+            }
+            if let Some(texture) = &mut materials[*index].texture {
+                texture.other = Some(other);
+            }
         }
         Ok(())
     }
@@ -100,7 +122,7 @@ impl<'d> Names<'d> {
         }
     }
 
-    fn add(&mut self, table: &Table<'d>) -> Result<(), Flaw> {
+    fn add(&mut self, table: &Table<'d>, around: &Around) -> Result<(), Flaw> {
         let name = table.need("name")?;
         let text = name.text("name")?;
         if let Some(first) = self.materials.iter().find(|m| m.name == text) {
@@ -115,8 +137,28 @@ impl<'d> Names<'d> {
             ("filtered", ShadowThrough::Filtered),
             ("none", ShadowThrough::None),
         ];
+        let mut swap = None;
+        let texture = match table.get("texture") {
+            None => None,
+            Some(value) => {
+                let (texture, with) = texture::read(&value.table("texture")?, around)?;
+                swap = with;
+                Some(texture)
+            }
+        };
+        let bump = match table.get("bump") {
+            None => None,
+            Some(value) => Some(texture::bump(&value.table("bump")?, around)?),
+        };
         let material = Material {
             name: text.to_owned(),
+            texture,
+            bump,
+            fresnel: table.flag("fresnel", like.fresnel)?,
+            absorption: [
+                table.color("absorption_front", DENSEST, like.absorption[0])?,
+                table.color("absorption", DENSEST, like.absorption[1])?,
+            ],
             ambient: table.color("ambient", STRONGEST, diffuse)?,
             diffuse,
             specular: table.color("specular", STRONGEST, like.specular)?,
@@ -140,6 +182,7 @@ impl<'d> Names<'d> {
             checker.done()?;
         }
         table.done()?;
+        self.textures.extend(swap.map(|name| (self.materials.len(), name)));
         self.materials.push(material);
         Ok(())
     }

@@ -8,16 +8,20 @@ mod material;
 mod place;
 mod solid;
 mod table;
+mod texture;
 
 use toml::de::DeTable;
+use whitted::trace::Terms;
 
 use crate::document::{
-    Background, Body, Bounds, Camera, Document, FARTHEST, Falloff, Point, Rules, Shape, Size, Span,
+    Background, Body, Bounds, Camera, Document, FARTHEST, Falloff, LightSelection, Point, Rules,
+    Shape, Size, Span,
 };
 use crate::error::{Flaw, Problem};
 use crate::read::Around;
 use crate::render::Sampling;
 use crate::sampling;
+use crate::terms;
 use group::Groups;
 use material::Names;
 use table::{Lines, Table, Value};
@@ -52,7 +56,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
     };
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
-    let mut names = Names::read(&tables(&scene, "material")?)?;
+    let mut names = Names::read(&tables(&scene, "material")?, around)?;
     let lights = tables(&scene, "light")?;
     let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
     let mut document = Document {
@@ -122,6 +126,7 @@ fn copies(
     material: usize,
     shapes: &mut Vec<Shape>,
 ) -> Result<(), Flaw> {
+    let uv = if table.name == "triangle" { body::uv(table)? } else { None };
     let copies = place::read(table)?;
     table.done()?;
     for body in bodies {
@@ -136,7 +141,8 @@ fn copies(
                     return Err(wrong(why));
                 }
                 within(&body, table.line)?;
-                shapes.push(Shape { body, material, line: table.line });
+                let uv = Shape::uv_placed(uv, by.mirrors());
+                shapes.push(Shape { body, material, uv, line: table.line });
             }
         }
     }
@@ -219,10 +225,41 @@ fn render_of(table: &Table<'_>) -> Result<(Option<Size>, Rules), Flaw> {
         depth: table.get("depth").map_or(Ok(like.depth), |v| {
             v.count("depth", 1, Rules::DEEPEST.into()).map(|depth| depth as u8)
         })?,
+        lights: table.get("lights").map_or(Ok(like.lights), |v| selection_of(&v))?,
+        terms: table.get("terms").map_or(Ok(like.terms), |v| terms_of(&v))?,
+        light_jitter: {
+            let seed = table.get("seed").map_or(Ok(0), |v| v.count("seed", 0, 65535))?;
+            table.flag("light_jitter", true)?.then_some(seed as u16)
+        },
         sampling: table.get("sampling").map_or(Ok(like.sampling), |v| sampling_of(&v))?,
     };
     table.done()?;
     Ok((size, rules))
+}
+
+fn terms_of(value: &Value<'_>) -> Result<Terms, Flaw> {
+    let mut sum = Terms::NONE;
+    for item in value.list("terms", "a list of words")? {
+        sum = sum.with(item.word("terms", &terms::NAMES)?);
+    }
+    if terms::ends(sum) {
+        return Ok(sum);
+    }
+    Err(Problem::degenerate("terms", terms::ENDLESS).at(value.line))
+}
+
+fn selection_of(value: &Value<'_>) -> Result<LightSelection, Flaw> {
+    let Ok(table) = value.table("lights") else {
+        return value.word("lights", &[("all", LightSelection::All)]);
+    };
+    let threshold = table.get("threshold").map(|v| v.number_in("threshold", 0.0..1000.0));
+    let choose = table.get("choose").map(|v| v.count("choose", 1, 255));
+    table.done()?;
+    match (threshold.transpose()?, choose.transpose()?) {
+        (Some(threshold), None) => Ok(LightSelection::Threshold(threshold)),
+        (None, Some(count)) => Ok(LightSelection::Choose(count as u8)),
+        _ => Err(table.missing("either \"threshold\" or \"choose\"")),
+    }
 }
 
 fn sampling_of(value: &Value<'_>) -> Result<Sampling, Flaw> {

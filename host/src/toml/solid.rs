@@ -99,7 +99,7 @@ fn part(
                 );
             }
             found = Some(Made::Of(operands.len()));
-            operands.push(Shape { body, material, line: shape.line });
+            operands.push(Shape { body, material, uv: None, line: shape.line });
         }
     }
     found.ok_or_else(|| {

@@ -1,7 +1,8 @@
 //! From `f64` to [`Fixed`](super::Fixed)'s numbers: `None` for what is out of range or no number.
 
-use super::{Aim, FixedBarycentric, FixedEdge, FixedEta, FixedExponent, FixedIntensity};
-use super::{FixedFactor, FixedOutline, FixedRadius, FixedRotation, FixedScale, Unit, Weight};
+use super::{Aim, FixedBarycentric, FixedDecay, FixedEdge, FixedEta, FixedExponent};
+use super::{FixedFactor, FixedIntensity, FixedOutline, FixedRadius, FixedRotation, FixedScale};
+use super::{Unit, Weight};
 use crate::math::inverted;
 use ::fixed::types::I16F16;
 
@@ -120,6 +121,14 @@ pub(crate) const fn eta(x: f64) -> Option<FixedEta> {
         square: round(square * 65536.0) as u16,
         exponent,
     })
+}
+
+/// From what a unit of length takes, in natural orders of magnitude.
+pub(crate) const fn decay(x: f64) -> Option<FixedDecay> {
+    if !within(x, 0.0, 170.0) {
+        return None;
+    }
+    Some(FixedDecay(round(x * core::f64::consts::LOG2_E * 16777216.0) as u32))
 }
 
 pub(crate) const fn aim(x: f64) -> Option<Aim> {

@@ -32,6 +32,14 @@ pub(super) fn share(a: I16F16, inverse: &FixedInverse) -> Unit {
     Unit::from_bits(if a.to_bits() < 0 { -q17 } else { q17 })
 }
 
+/// See `Arithmetic::relative`. Seldom asked, so it may divide.
+pub(super) fn relative(a: I16F16, b: I16F16) -> Weight {
+    const MOST: u64 = 261_980;
+    let (a, b) = (u64::from(a.to_bits() as u32), u64::from(b.to_bits() as u32));
+    let ratio = (a << 14).checked_div(b).unwrap_or(0);
+    Weight::from_bits((if ratio < MOST { ratio } else { MOST }) as i32)
+}
+
 /// `p·2^(exponent − 29)` with its mantissa brought to fifteen bits.
 fn normalized(p: u32, exponent: i32) -> FixedIntensity {
     if p == 0 {

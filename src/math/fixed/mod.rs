@@ -78,6 +78,10 @@ pub struct FixedEta {
     exponent: i8,
 }
 
+/// Binary orders of magnitude that a unit of length takes, in Q24.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedDecay(u32);
+
 /// See [`Arithmetic::Barycentric`]: each form is `p·(x >> shift) + q·(y >> shift)`, 1 standing
 /// at `14 + down` fraction bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
@@ -173,6 +177,7 @@ impl Arithmetic for Fixed {
     type Intensity = FixedIntensity;
     type Exponent = FixedExponent;
     type Eta = FixedEta;
+    type Decay = FixedDecay;
     type Barycentric = FixedBarycentric;
     type Normal = [i16; 3];
     type Outline = FixedOutline;
@@ -436,6 +441,17 @@ impl Arithmetic for Fixed {
         I16F16::from_bits(p as i32)
     }
 
+    fn relative(a: I16F16, b: I16F16) -> Weight {
+        light::relative(a, b)
+    }
+
+    #[inline(always)]
+    fn portion(r: I16F16, part: u32) -> I16F16 {
+        I16F16::from_bits(
+            (u64::from(r.to_bits() as u32).wrapping_mul(u64::from(part)) >> 32) as i32,
+        )
+    }
+
     #[inline(always)]
     fn over_weight(r: I16F16, w: Weight) -> I16F16 {
         I16F16::from_bits(kernel::ratio(r.to_bits(), w.to_bits(), 14) as i32)
@@ -509,6 +525,42 @@ impl Arithmetic for Fixed {
         let mid = ((x & 0xffff) as u32).wrapping_mul((per >> 16) as u32);
         let high = ((x >> 16) as u32).wrapping_mul(per as u32);
         low.wrapping_add(mid).wrapping_add(high) >> 16 & 1 != 0
+    }
+
+    #[inline(always)]
+    fn cells(x: I16F16, per: I16F16) -> i32 {
+        ((i64::from(x.to_bits()).wrapping_mul(i64::from(per.to_bits()))) >> 16) as i32
+    }
+
+    #[inline(always)]
+    fn eta_weight(eta: &FixedEta) -> Weight {
+        Weight::from_bits((eta.eta_q16 >> 2) as i32)
+    }
+
+    #[inline(always)]
+    fn decay(rate: &FixedDecay, t: I16F16) -> Weight {
+        let product = u64::from(t.to_bits().unsigned_abs()).wrapping_mul(u64::from(rate.0)) >> 24;
+        Weight::from_bits(log::exp2_q14(product) as i32)
+    }
+
+    #[inline(always)]
+    fn weight_q14(bits: i32) -> Weight {
+        Weight::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn to_q14(w: Weight) -> i32 {
+        w.to_bits()
+    }
+
+    #[inline(always)]
+    fn length_q16(bits: i32) -> I16F16 {
+        I16F16::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn unit_q17(bits: i32) -> Unit {
+        Unit::from_bits(bits)
     }
 
     #[inline(always)]

@@ -22,7 +22,8 @@ impl FixedRotation {
     /// A row's product with a vector, in the vector's steps.
     #[inline(always)]
     fn row(&self, i: usize, v: &[i32; 3]) -> i32 {
-        let low = self.low_q30[i].map(i32::from);
+        let low = &self.low_q30[i];
+        let low = [i32::from(low[0]), i32::from(low[1]), i32::from(low[2])];
         project(v, &self.high_q17[i]).wrapping_add(project(v, &low).wrapping_add(1 << 12) >> 13)
     }
 }
@@ -31,15 +32,18 @@ impl FixedRotation {
 #[inline(always)]
 pub(super) fn rotate(r: &FixedRotation, v: &[I16F16; 3]) -> [I16F16; 3] {
     let v = lengths(v);
-    [0, 1, 2].map(|i| I16F16::from_bits(r.row(i, &v)))
+    let at = |i: usize| I16F16::from_bits(r.row(i, &v));
+    [at(0), at(1), at(2)]
 }
 
 /// See `Arithmetic::turn`.
 #[inline(always)]
 pub(super) fn turn(r: &FixedRotation, d: &[Unit; 3]) -> [Unit; 3] {
     // nine bits more, for rounding to nearest
-    let d = units(d).map(|d| d << 9);
-    [0, 1, 2].map(|i| Unit::from_bits(r.row(i, &d).wrapping_add(1 << 8) >> 9))
+    let [x, y, z] = units(d);
+    let d = [x << 9, y << 9, z << 9];
+    let at = |i: usize| Unit::from_bits(r.row(i, &d).wrapping_add(1 << 8) >> 9);
+    [at(0), at(1), at(2)]
 }
 
 impl FixedFactor {

@@ -193,6 +193,17 @@ proptest! {
     }
 
     #[test]
+    fn relations_and_portions(a in 0.0..1000.0f64, b in 0.01..1000.0f64, part: u32) {
+        let (a, b) = (make::radiance(a).unwrap(), make::radiance(b).unwrap());
+        let exact = (a.to_num::<f64>() / b.to_num::<f64>()).min(15.99);
+        let got = Fixed::relative(a, b).to_num::<f64>();
+        prop_assert!((got - exact).abs() < 1.0 / 16384.0, "{got} {exact}");
+        let exact = a.to_num::<f64>() * f64::from(part) / 4294967296.0;
+        let got = Fixed::portion(a, part).to_num::<f64>();
+        prop_assert!(got <= exact && exact - got < LSB);
+    }
+
+    #[test]
     fn shares(a in -1.0..1.0f64, distance in 0.02..900.0f64) {
         let v = lengths_of([distance * 0.6, 0.0, distance * 0.8]);
         let inverse = Fixed::normalize(&v).2;

@@ -52,6 +52,10 @@ macro_rules! constructors {
                 Some(FloatEta(x as $f))
             }
 
+            pub(crate) const fn decay(x: f64) -> Option<$f> {
+                within(x, 0.0, 170.0)
+            }
+
             pub(crate) const fn aim(x: f64) -> Option<$f> {
                 within(x, -16.0, 16.0)
             }

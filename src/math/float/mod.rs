@@ -78,7 +78,7 @@ pub struct FloatScale<F> {
 }
 
 macro_rules! float {
-    ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, eps: $eps:literal, slow: $slow:literal) => {
+    ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, exp: $exp:path, eps: $eps:literal, slow: $slow:literal) => {
         impl Arithmetic for $f {
             type Length = $f;
             type Unit = $f;
@@ -90,6 +90,7 @@ macro_rules! float {
             type Intensity = $f;
             type Exponent = $f;
             type Eta = FloatEta<$f>;
+            type Decay = $f;
             type Barycentric = FloatBarycentric<$f>;
             type Normal = [$f; 3];
             type Outline = FloatOutline<$f>;
@@ -393,6 +394,19 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn relative(a: $f, b: $f) -> $f {
+                let most = 15.99;
+                let ratio = if b > 0.0 { a / b } else { 0.0 };
+                if ratio < most { ratio } else { most }
+            }
+
+            #[inline(always)]
+            fn portion(r: $f, part: u32) -> $f {
+                // As many bits as any float has, so that the part stays below 1.
+                r * ((part >> 8) as $f * (1.0 / 16777216.0))
+            }
+
+            #[inline(always)]
             fn over_weight(r: $f, w: $f) -> $f {
                 if w > 0.0 { r / w } else { 0.0 }
             }
@@ -461,6 +475,43 @@ macro_rules! float {
                 let whole = cell as i32;
                 let floor = whole.wrapping_sub((whole as $f > cell) as i32);
                 floor & 1 != 0
+            }
+
+            #[inline(always)]
+            fn cells(x: $f, per: $f) -> i32 {
+                let steps = x * per * 65536.0;
+                let whole = steps as i64;
+                whole.wrapping_sub((whole as $f > steps) as i64) as i32
+            }
+
+            #[inline(always)]
+            fn eta_weight(eta: &FloatEta<$f>) -> $f {
+                eta.0
+            }
+
+            #[inline(always)]
+            fn decay(rate: &$f, t: $f) -> $f {
+                $exp(-(*rate * t))
+            }
+
+            #[inline(always)]
+            fn weight_q14(bits: i32) -> $f {
+                bits as $f * (1.0 / 16384.0)
+            }
+
+            #[inline(always)]
+            fn to_q14(w: $f) -> i32 {
+                (w * 16384.0) as i32
+            }
+
+            #[inline(always)]
+            fn length_q16(bits: i32) -> $f {
+                bits as $f * (1.0 / 65536.0)
+            }
+
+            #[inline(always)]
+            fn unit_q17(bits: i32) -> $f {
+                bits as $f * (1.0 / 131072.0)
             }
 
             #[inline(always)]
@@ -535,7 +586,7 @@ macro_rules! float {
     };
 }
 
-float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, eps: 5.9604645e-8, slow: 9.536_743e-7);
-float!(f64, 64, f64, sqrt: libm::sqrt, pow: libm::pow, eps: 1.1102230246251565e-16, slow: 1e-12);
+float!(f32, 32, f32, sqrt: root::sqrt_f32, pow: libm::powf, exp: libm::expf, eps: 5.9604645e-8, slow: 9.536_743e-7);
+float!(f64, 64, f64, sqrt: libm::sqrt, pow: libm::pow, exp: libm::exp, eps: 1.1102230246251565e-16, slow: 1e-12);
 
 pub(crate) use constructors::{f32 as f32_constructors, f64 as f64_constructors};

@@ -106,6 +106,19 @@ impl<'l, A: Arithmetic> Seen<'l, A> {
         }) as u16
     }
 
+    /// The irradiance at x over π, normal to `normal`, as if all came from the centre, r being no
+    /// less than half the diameter. A cosine counts as a sixteenth at least: another part of the
+    /// light may have a larger one.
+    pub(super) fn irradiance(&self, light: &AreaLight<A>, normal: &[A::Unit; 3]) -> A::Radiance {
+        let (direction, _, inverse) = A::normalize(&self.way);
+        let irradiance = A::falloff(&light.intensity, &inverse);
+        let irradiance = if irradiance < light.most { irradiance } else { light.most };
+        let least = A::weight_of(A::fraction(4096));
+        let at_least = |cosine: A::Weight| if cosine > least { cosine } else { least };
+        let cosine = at_least(A::cosine(normal, &direction));
+        A::dim(irradiance, A::weight(cosine, at_least(self.cosine)))
+    }
+
     /// The light's point for a place (s, t) of the unit square.
     pub(super) fn point(&self, s: u32, t: u32) -> [A::Length; 3] {
         let (edges, x, y) = match &self.area {

@@ -90,6 +90,9 @@ pub const PARTS: Parts<A> = Parts {
     planes: &[Plane::<A>::new([0.0, 1.0, 0.0], 0.0, FLOOR)],
     tree: None,
     materials: &MATERIALS,
+    textures: &[],
+    uvs: &[],
+    absorptions: &[],
     lights: &[
         Light::<A>::point([-4.0, 6.0, -5.0], [36.0, 33.0, 28.0]),
         Light::<A>::new(LightSpec::Directional {
