@@ -82,6 +82,7 @@ pub fn pixel<A: Construct>(baked: &Baked<A>, size: Size, depth: u8) -> Result<Pi
     let longer = f64::from(size.width.max(size.height));
     let side = |side: u32| ((f64::from(side) * f64::from(TRIAL) / longer) as u32).max(1);
     let settings = Settings {
+        indirect: None,
         size: Size { width: side(size.width), height: side(size.height) },
         depth,
         sampling: Sampling::Center,

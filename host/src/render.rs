@@ -14,8 +14,9 @@ use whitted::tally::Counts;
 use whitted::trace::{Terms, Tracer, Work};
 
 use crate::bake::{Baked, Construct};
-use crate::document::{Rules, Size};
+use crate::document::{Indirect, Rules, Size};
 use crate::error::{Flaw, Problem};
+use crate::indirect::Pools;
 use crate::picture::Picture;
 use crate::show::{self, Show};
 
@@ -31,6 +32,8 @@ pub struct Settings {
     pub depth: u8,
     /// Where in a pixel rays go.
     pub sampling: Sampling,
+    /// The light that surfaces send each other.
+    pub indirect: Option<Indirect>,
     /// What the picture shows instead of the scene.
     pub show: Option<Show>,
     /// How many threads trace; the picture and the counts are the same for any number.
@@ -72,7 +75,16 @@ pub fn render<A: Construct>(
 ) -> Result<Rendered, Flaw> {
     let camera = baked.camera(settings.size)?;
     let terms = baked.document().rules.terms;
-    baked.with_scene(|scene| render_scene(scene, &camera, settings, terms, progress))?
+    baked.with_scene(|scene| {
+        let start = Instant::now();
+        let (mut pools, mut made) = (Pools::default(), Counts::default());
+        let wanted = settings.indirect.filter(|_| settings.show.is_none());
+        let lit = pools.light(baked, scene, &camera, settings.size, wanted, &mut made)?;
+        let mut rendered = render_scene(&lit, &camera, settings, terms, progress)?;
+        rendered.counts += made;
+        rendered.time = start.elapsed();
+        Ok(rendered)
+    })?
 }
 
 fn render_scene<A: Construct>(

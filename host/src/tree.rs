@@ -5,12 +5,13 @@ use std::fmt;
 use whitted::math::{Arithmetic, Rgb};
 use whitted::scene::View;
 use whitted::shape::Ray;
-use whitted::tally::{RayKind, Tally, Term};
+use whitted::tally::{Counts, RayKind, Tally, Term};
 use whitted::trace::{Tracer, Work};
 
 use crate::bake::{Baked, Construct};
-use crate::document::Size;
+use crate::document::{Indirect, Size};
 use crate::error::Flaw;
+use crate::indirect::Pools;
 use crate::number::{radiance, to_f64};
 use crate::render::MAX_DEPTH;
 
@@ -61,7 +62,7 @@ impl Tally for Tree {
     }
 }
 
-/// Traces the ray through the centre of a pixel.
+/// Traces the ray through the centre of a pixel, with what light surfaces send each other.
 ///
 /// # Errors
 /// The arithmetic can't hold the camera.
@@ -70,16 +71,22 @@ pub fn tree<A: Construct>(
     size: Size,
     depth: u8,
     (x, y): (u32, u32),
+    indirect: Option<Indirect>,
 ) -> Result<Tree, Flaw> {
     let view = View::new(&baked.camera(size)?, size.width as u16, size.height as u16);
     let row = view.row(y as u16, 128);
     let ray = view.ray(&row, x as u16, 128);
     let mut tree = Tree::default();
     let mut work = Work::<A, MAX_DEPTH>::new();
+    let camera = baked.camera(size)?;
+    let mut made = Counts::default();
     let sum = baked.with_scene(|scene| {
-        let tracer = Tracer::new(scene, depth).with_key(row.key(x as u16, 128));
-        tracer.radiance(ray, &mut work, &mut tree)
-    })?;
+        let mut pools = Pools::default();
+        let lit = pools.light(baked, scene, &camera, size, indirect, &mut made)?;
+        let x = x as u16;
+        let tracer = Tracer::new(&lit, depth).with_key(row.key(x, 128)).with_turn(row.in_tile(x));
+        Ok::<_, Flaw>(tracer.radiance(ray, &mut work, &mut tree))
+    })??;
     tree.sum = radiance::<A>(&sum);
     for branch in &mut tree.branches {
         let Some((shape, distance)) = &mut branch.hit else { continue };

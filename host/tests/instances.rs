@@ -37,6 +37,7 @@ fn picture<A: Construct>(text: &str) -> Picture {
     let baked = Baked::<A>::new(&document).unwrap_or_else(|flaw| panic!("{}", flaw.problem));
     let size = Size { width: 96, height: 72 };
     let settings = Settings {
+        indirect: None,
         size,
         depth: 4,
         sampling: Sampling::Grid { side: 2 },

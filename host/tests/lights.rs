@@ -100,6 +100,7 @@ fn document(light: &str) -> Document {
 
 fn picture<A: Construct>(document: &Document, size: Size, sampling: Sampling) -> Rendered {
     let settings = Settings {
+        indirect: None,
         size,
         depth: document.rules.depth,
         sampling,

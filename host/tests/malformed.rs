@@ -69,6 +69,26 @@ const NFF_FILES: &[(&[u8], &str)] = &[
 
 /// Lines that are wrong after `GOOD`, and what the error says.
 const TOML: &[(&str, &str)] = &[
+    ("[indirect]", ":9: key \"type\" of this indirect is missing"),
+    (
+        "[indirect]\ntype = \"photons\"",
+        ":10: unknown word \"photons\"; known: cache, virtual-lights",
+    ),
+    ("[indirect]\ntype = \"cache\"\nerror = 2", ":11: error 2 is out of range: it must be 0.05"),
+    ("[indirect]\ntype = \"cache\"\nrays = 0", ":11: rays 0 is out of range: it must be 1 to"),
+    ("[indirect]\ntype = \"cache\"\nlights = 4", ":11: unknown key \"lights\"; known: type, error"),
+    (
+        "[indirect]\ntype = \"cache\"\nnearest = 2\nfarthest = 1",
+        ":9: indirect: \"nearest\" is larger than \"farthest\"",
+    ),
+    (
+        "[indirect]\ntype = \"virtual-lights\"\ntile = 3",
+        ":11: tile 3 is out of range: it must be 1, 2 or 4",
+    ),
+    (
+        "[indirect]\ntype = \"virtual-lights\"\nbounces = 5",
+        ":11: bounces 5 is out of range: it must be 1 to 4",
+    ),
     ("radius = 2", ":9: duplicate key"),
     ("colour = 1", ":9: unknown key \"colour\"; known: material, center, radius"),
     ("[[sphere]]\ncenter = [0, 0, 0]", ":9: key \"radius\" of this sphere is missing"),

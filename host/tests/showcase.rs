@@ -18,6 +18,7 @@ fn the_static_is_the_file() {
     let document = read::parse(read::Format::Toml, text).unwrap();
     let depth = document.rules.depth;
     let settings = render::Settings {
+        indirect: None,
         size: Size { width: 60, height: 40 },
         depth,
         sampling: render::Sampling::Center,

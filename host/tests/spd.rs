@@ -35,6 +35,7 @@ const SMALL: [(&str, usize, usize); 8] = [
 fn counts<A: Construct>(document: &Document, side: u32) -> Counts {
     let baked = Baked::<A>::new(document).unwrap_or_else(|flaw| panic!("{}", flaw.problem));
     let settings = Settings {
+        indirect: None,
         size: Size { width: side, height: side },
         depth: 5,
         sampling: Sampling::Corners,

@@ -22,6 +22,7 @@ fn the_same_bits_and_counts() {
         let mut one = None;
         for threads in [1, 2, 3, 64] {
             let settings = Settings {
+                indirect: None,
                 size: Size { width: 64, height: 100 },
                 depth: 4,
                 sampling,

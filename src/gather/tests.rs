@@ -52,6 +52,10 @@ macro_rules! integrating_sphere {
                 }
                 let count = cache.records().len();
                 mean /= count as f64;
+                let name = <$a>::NAME;
+                std::println!(
+                    "{name}: {count} records, {bounces}: mean {mean:.4}, worst {worst:.4}"
+                );
                 assert!((mean / wanted - 1.0).abs() < 0.005, "{mean}");
                 assert!(worst < 0.04, "{worst}");
             }

@@ -130,7 +130,7 @@ impl<A: Arithmetic> Row<A> {
 
     /// The place of a pixel in a tile of 4×4, x in the low two bits.
     #[inline(always)]
-    pub(crate) fn in_tile(&self, x: u16) -> u8 {
+    pub fn in_tile(&self, x: u16) -> u8 {
         (self.place >> 8 & 3) as u8 * 4 + (x & 3) as u8
     }
 

@@ -63,6 +63,8 @@ pub struct Light<A: Arithmetic> {
     /// The channels, relative to the largest.
     pub(crate) color: Rgb<A::Weight>,
     pub(crate) falloff: Falloff,
+    /// Whether it isn't white.
+    pub(crate) colored: bool,
 }
 
 /// Where the light comes from.
@@ -207,6 +209,7 @@ for_each_arithmetic! {
                     some_or!(make::weight(intensity[2] * scale), Coefficient),
                 ],
                 falloff,
+                colored: intensity[1] != intensity[0] || intensity[2] != intensity[0],
             })
         }
     }

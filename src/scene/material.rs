@@ -111,6 +111,8 @@ pub struct Material<A: Arithmetic> {
     /// The same, whatever terms a render leaves out.
     pub(crate) mirrors: bool,
     pub(crate) transmits: bool,
+    /// Whether a coefficient of reflection or transmission isn't grey.
+    pub(crate) colored: bool,
     pub(crate) emits: bool,
 }
 
@@ -177,6 +179,10 @@ impl<A: Arithmetic> Pattern<A> {
 
 const fn any(c: &Rgb<f64>) -> bool {
     c[0] > 0.0 || c[1] > 0.0 || c[2] > 0.0
+}
+
+const fn colored(c: &Rgb<f64>) -> bool {
+    c[1] != c[0] || c[2] != c[0]
 }
 
 const fn at_most_one(c: &Rgb<f64>) -> bool {
@@ -259,6 +265,7 @@ for_each_arithmetic! {
                 reflects: any(&spec.reflection),
                 mirrors: any(&spec.reflection),
                 transmits: any(&spec.transmission),
+                colored: colored(&spec.reflection) || colored(&spec.transmission),
                 emission: [
                     some_or!(make::radiance(spec.emission[0]), Coefficient),
                     some_or!(make::radiance(spec.emission[1]), Coefficient),

@@ -19,7 +19,7 @@
 
 use super::light::Source;
 use super::{Background, Falloff, Instance, Parts, Selection, Shadow, Shapes};
-use crate::math::Arithmetic;
+use crate::math::{Arithmetic, Rgb};
 
 /// Anything.
 pub const ALL: u64 = u64::MAX;
@@ -92,9 +92,30 @@ pub const SOLIDS: u64 = 1 << 41;
 /// Cylinders and cones with caps.
 pub const CAPS: u64 = 1 << 42;
 /// [`Indirect::Cache`](crate::gather::Indirect::Cache).
-pub const IRRADIANCE_CACHE: u64 = 1 << 48;
+pub const IRRADIANCE_CACHE: u64 = 1 << 52;
 /// [`Indirect::VirtualLights`](crate::gather::Indirect::VirtualLights).
-pub const VIRTUAL_LIGHTS: u64 = 1 << 49;
+pub const VIRTUAL_LIGHTS: u64 = 1 << 53;
+
+// What of the things above is of the simplest kind is cheaper; these say that some isn't.
+
+/// More than one plane.
+pub const SEVERAL_PLANES: u64 = 1 << 30;
+/// A plane across the x axis, its normal pointing along it.
+pub const PLANES_ACROSS_X: u64 = 1 << 31;
+/// A plane across the y axis, its normal pointing along it.
+pub const PLANES_ACROSS_Y: u64 = 1 << 32;
+/// A plane across the z axis, its normal pointing along it.
+pub const PLANES_ACROSS_Z: u64 = 1 << 33;
+/// Another plane.
+pub const SLOPING_PLANES: u64 = 1 << 34;
+/// More than one light.
+pub const SEVERAL_LIGHTS: u64 = 1 << 35;
+/// A light that isn't white.
+pub const COLORED_LIGHTS: u64 = 1 << 36;
+/// A reflection or transmission that isn't grey.
+pub const COLORED_RAYS: u64 = 1 << 37;
+/// Spheres that show their inside alone.
+pub const INSIDES: u64 = 1 << 38;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -140,6 +161,23 @@ pub(crate) const fn has_signatures(uses: u64) -> bool {
     uses & (ADAPTIVE | SPARSE) != 0
 }
 
+/// The coefficients of a ray, of which the first stands for all where none are coloured.
+#[inline(always)]
+pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A::Weight> {
+    if has(USES, COLORED_RAYS) || has(USES, ABSORPTION) { *k } else { [k[0]; 3] }
+}
+
+/// Does something with all of a slice, or with the first where there is no more: no loop is left
+/// then.
+#[inline(always)]
+pub(crate) fn each<T>(all: &[T], several: bool, mut act: impl FnMut(&T)) {
+    if several {
+        all.iter().for_each(act);
+    } else if let Some(first) = all.first() {
+        act(first);
+    }
+}
+
 /// Whether anything is random about rays.
 #[inline(always)]
 pub(crate) const fn has_random(uses: u64) -> bool {
@@ -174,6 +212,18 @@ impl<A: Arithmetic> Shapes<'_, A> {
             | bit(!self.solids.is_empty(), SOLIDS)
             | bit(caps, CAPS)
             | bit(self.tree.is_some(), TREE)
+            | self.uses_of_spheres()
+    }
+
+    const fn uses_of_spheres(&self) -> u64 {
+        let mut i = 0;
+        while i < self.spheres.len() {
+            if self.spheres[i].material_id().inside_only() {
+                return INSIDES;
+            }
+            i += 1;
+        }
+        0
     }
 }
 
@@ -189,11 +239,23 @@ pub(crate) const fn of_instances<A: Arithmetic>(instances: &[Instance<'_, A>]) -
 }
 
 impl<A: Arithmetic> Parts<'_, A> {
+    const fn uses_of_planes(&self) -> u64 {
+        let mut uses = bit(!self.planes.is_empty(), PLANES);
+        uses |= bit(self.planes.len() > 1, SEVERAL_PLANES);
+        let mut i = 0;
+        while i < self.planes.len() {
+            uses |= self.planes[i].uses();
+            i += 1;
+        }
+        uses
+    }
+
     /// What the parts use: the bits that a [`Scene`](super::Scene) of them needs at least.
     pub const fn uses(&self) -> u64 {
         let mut uses = self.shapes().uses()
             | of_instances(self.instances)
-            | bit(!self.planes.is_empty(), PLANES)
+            | self.uses_of_planes()
+            | bit(self.lights.len() > 1, SEVERAL_LIGHTS)
             | self.indirect.uses()
             | bit(matches!(self.background, Background::Gradient { .. }), GRADIENT)
             | bit(self.rules.specular_cosine, SPECULAR_COSINE)
@@ -212,6 +274,7 @@ impl<A: Arithmetic> Parts<'_, A> {
                 | bit(material.shines, HIGHLIGHTS)
                 | bit(material.reflects, REFLECTION)
                 | bit(material.transmits, TRANSMISSION)
+                | bit(material.colored, COLORED_RAYS)
                 | bit(material.emits, EMISSION)
                 | bit(!matches!(material.shadow, Shadow::Opaque), PASSING_SHADOWS);
             i += 1;
@@ -228,6 +291,7 @@ impl<A: Arithmetic> Parts<'_, A> {
                 Falloff::InverseSquare => INVERSE_SQUARE,
                 Falloff::None => NO_FALLOFF,
             };
+            uses |= bit(light.colored, COLORED_LIGHTS);
             i += 1;
         }
         uses

@@ -8,9 +8,10 @@ use bytemuck::AnyBitPattern;
 
 use super::chord::{Chord, Convex, signed_ratio};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
-use super::{ok_or_panic, some_or, turned};
+use super::{meets_plane, ok_or_panic, some_or, turned};
 use crate::blob::stored;
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic, unit_f64};
+use crate::scene::uses;
 
 /// An infinite plane. It lies outside the octree; its front is where the normal points.
 #[derive(Clone, Copy, Debug, AnyBitPattern)]
@@ -75,6 +76,61 @@ impl<A: Arithmetic> Plane<A> {
     pub(crate) const fn material_id(&self) -> MaterialId {
         self.material
     }
+
+    /// Which bit of a scene's uses stands for such a plane.
+    pub(crate) const fn uses(&self) -> u64 {
+        match self.axis {
+            0 => uses::PLANES_ACROSS_X,
+            1 => uses::PLANES_ACROSS_Y,
+            2 => uses::PLANES_ACROSS_Z,
+            _ => uses::SLOPING_PLANES,
+        }
+    }
+
+    /// The axis, where all planes that there may be have one.
+    #[inline(always)]
+    fn axis<const USES: u64>(&self) -> u8 {
+        let all = uses::PLANES_ACROSS_X | uses::PLANES_ACROSS_Y | uses::PLANES_ACROSS_Z;
+        match USES & (all | uses::SLOPING_PLANES) {
+            uses::PLANES_ACROSS_X => 0,
+            uses::PLANES_ACROSS_Y => 1,
+            uses::PLANES_ACROSS_Z => 2,
+            _ => self.axis,
+        }
+    }
+
+    /// See [`Shape::nearest`].
+    #[inline(always)]
+    pub(crate) fn meet<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        let axis = self.axis::<USES>();
+        let (height, slope) = if axis < 3 {
+            (axis_of(&ray.origin, axis), axis_of(&ray.direction, axis))
+        } else {
+            (A::project(&ray.origin, &self.normal), A::dot(&ray.direction, &self.normal))
+        };
+        let (distance, _) = meets_plane::<A>(height - self.offset, -slope, limit)?;
+        Some(Meeting { distance, detail: A::NO_LENGTH })
+    }
+
+    /// See [`Shape::surface`].
+    #[inline(always)]
+    pub(crate) fn surface_seen<const USES: u64>(&self, ray: &Ray<A>) -> Surface<A> {
+        let axis = self.axis::<USES>();
+        if axis >= 3 {
+            return turned(&self.normal, A::dot(&ray.direction, &self.normal));
+        }
+        let mut normal = [A::NO_UNIT; 3];
+        for i in 0..3 {
+            if i == usize::from(axis) {
+                normal[i] = A::ONE_UNIT;
+            }
+        }
+        turned(&normal, axis_of(&ray.direction, axis))
+    }
 }
 
 /// All that lies behind it.
@@ -105,38 +161,12 @@ impl<A: Arithmetic> Shape<A> for Plane<A> {
         _: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        let (height, slope) = if self.axis < 3 {
-            (axis_of(&ray.origin, self.axis), axis_of(&ray.direction, self.axis))
-        } else {
-            (A::project(&ray.origin, &self.normal), A::dot(&ray.direction, &self.normal))
-        };
-        let height = height - self.offset;
-        let distance = if height > A::NO_LENGTH {
-            if slope >= A::NO_UNIT {
-                return None;
-            }
-            A::ratio(height, -slope)
-        } else {
-            if slope <= A::NO_UNIT {
-                return None;
-            }
-            A::ratio(-height, slope)
-        };
-        if distance > A::NO_LENGTH && distance <= limit {
-            Some(Meeting { distance, detail: A::NO_LENGTH })
-        } else {
-            None
-        }
+        self.meet::<{ uses::ALL }>(ray, limit)
     }
 
     #[inline(always)]
     fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
-        let dn = if self.axis < 3 {
-            axis_of(&ray.direction, self.axis)
-        } else {
-            A::dot(&ray.direction, &self.normal)
-        };
-        turned(&self.normal, dn)
+        self.surface_seen::<{ uses::ALL }>(ray)
     }
 
     #[inline(always)]

@@ -18,6 +18,7 @@ use super::{ok_or_panic, point, some_or, turned};
 use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 use crate::octree::Extent;
+use crate::scene::uses::{self, has};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, AnyBitPattern)]
@@ -126,11 +127,15 @@ impl<A: Arithmetic> Convex<A> for Sphere<A> {
     }
 }
 
-impl<A: Arithmetic> Shape<A> for Sphere<A> {
-    const FLAT: bool = false;
-
+impl<A: Arithmetic> Sphere<A> {
     #[inline(always)]
-    fn nearest(
+    fn shows_inside_only<const USES: u64>(&self) -> bool {
+        has(USES, uses::INSIDES) && self.material.inside_only()
+    }
+
+    /// See [`Shape::nearest`].
+    #[inline(always)]
+    pub(crate) fn meet<const USES: u64>(
         &self,
         ray: &Ray<A>,
         coarse: &A::Coarse,
@@ -146,12 +151,12 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         let t = if A::REFINE { t + A::ahead(&self.radius, &c, t, &ray.direction) } else { t };
         let half = A::leg(&self.radius, leg2);
         let near = t - half;
-        let (distance, detail) = if near > A::NO_LENGTH && !inwards && !self.material.inside_only()
-        {
-            (near, -half)
-        } else {
-            (t + half, half)
-        };
+        let (distance, detail) =
+            if near > A::NO_LENGTH && !inwards && !self.shows_inside_only::<USES>() {
+                (near, -half)
+            } else {
+                (t + half, half)
+            };
         if distance > A::NO_LENGTH && distance <= limit {
             Some(Meeting { distance, detail })
         } else {
@@ -159,10 +164,17 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         }
     }
 
+    /// See [`Shape::occludes`].
     #[inline(always)]
-    fn occludes(&self, ray: &Ray<A>, coarse: &A::Coarse, inwards: bool, limit: A::Length) -> bool {
-        if inwards || self.material.inside_only() {
-            return match self.nearest(ray, coarse, inwards, limit) {
+    pub(crate) fn blocks<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        coarse: &A::Coarse,
+        inwards: bool,
+        limit: A::Length,
+    ) -> bool {
+        if inwards || self.shows_inside_only::<USES>() {
+            return match self.meet::<USES>(ray, coarse, inwards, limit) {
                 Some(meeting) => meeting.distance < limit,
                 None => false,
             };
@@ -184,6 +196,26 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
             // all inside.
             !beyond(t) || !beyond(limit - t)
         }
+    }
+}
+
+impl<A: Arithmetic> Shape<A> for Sphere<A> {
+    const FLAT: bool = false;
+
+    #[inline(always)]
+    fn nearest(
+        &self,
+        ray: &Ray<A>,
+        coarse: &A::Coarse,
+        inwards: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        self.meet::<{ uses::ALL }>(ray, coarse, inwards, limit)
+    }
+
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<A>, coarse: &A::Coarse, inwards: bool, limit: A::Length) -> bool {
+        self.blocks::<{ uses::ALL }>(ray, coarse, inwards, limit)
     }
 
     #[inline(always)]

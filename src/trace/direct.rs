@@ -5,8 +5,8 @@ use super::select::selected;
 use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
-use crate::scene::uses::{self, has};
-use crate::scene::{Incident, Material, Rules, Scene, Selection};
+use crate::scene::uses::{self, each, grey, has};
+use crate::scene::{Incident, Light, Material, Rules, Scene, Selection};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -40,51 +40,62 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         *sum = rgb(sum, &selected(scene, Point::of(&at), scratch, tally), A::gather);
         return;
     }
-    let rules = &scene.parts.rules;
-    let mut index = 0;
-    for light in scene.parts.lights {
-        let number = index;
-        index += 1;
-        let Some(Incident { direction, distance, irradiance }) =
-            light.at::<USES>(&at.shadow.origin)
-        else {
-            continue;
-        };
-        let cosine = A::cosine(&at.surface.normal, &direction);
-        if cosine <= A::NO_WEIGHT {
-            continue;
+    let mut number = 0;
+    each(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), |light| {
+        if let Some(radiance) = of_light(scene, &mut at, light, number, scratch, tally) {
+            *sum = rgb(sum, &radiance, A::gather);
         }
-        // A dent doesn't see a light that lies below the surface.
-        if has(USES, uses::BUMPS)
-            && at.material.bump().is_some()
-            && A::cosine(&at.surface.geometric, &direction) <= A::NO_WEIGHT
-        {
-            continue;
-        }
-        at.shadow.direction = direction;
-        tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-        let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
-            tally.shadowed(number, at.depth);
-            continue;
-        };
-        let factor = factor::<A, USES>(
-            rules,
-            at.material,
-            at.highlights.then_some(at.mirror),
-            cosine,
-            &direction,
-        );
-        let factor = rgb(&factor, &light.color, A::weight);
-        let factor = rgb(&factor, at.weight, A::weight);
-        let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
-        let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
-        let radiance = factor.map(|f| A::dim(irradiance, f));
-        tally.term::<A>(Term::Direct { light: number }, &radiance);
-        *sum = rgb(sum, &radiance, A::gather);
-    }
+        number += 1;
+    });
     if has(USES, uses::AREA_LIGHTS) && !scene.parts.area_lights.is_empty() {
         *sum = rgb(sum, &areas(scene, Point::of(&at), scratch, tally), A::gather);
     }
+}
+
+/// What one light adds, if it is visible.
+#[inline(always)]
+fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
+    scene: &Scene<'_, A, USES>,
+    at: &mut Shading<'_, A>,
+    light: &Light<A>,
+    number: u16,
+    scratch: &mut Scratch<A>,
+    tally: &mut T,
+) -> Option<Rgb<A::Radiance>> {
+    let Incident { direction, distance, irradiance } = light.at::<USES>(&at.shadow.origin)?;
+    let cosine = A::cosine(&at.surface.normal, &direction);
+    if cosine <= A::NO_WEIGHT {
+        return None;
+    }
+    // A dent doesn't see a light that lies below the surface.
+    if has(USES, uses::BUMPS)
+        && at.material.bump().is_some()
+        && A::cosine(&at.surface.geometric, &direction) <= A::NO_WEIGHT
+    {
+        return None;
+    }
+    at.shadow.direction = direction;
+    tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
+    let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
+        tally.shadowed(number, at.depth);
+        return None;
+    };
+    let mut factor = factor::<A, USES>(
+        &scene.parts.rules,
+        at.material,
+        at.highlights.then_some(at.mirror),
+        cosine,
+        &direction,
+    );
+    if has(USES, uses::COLORED_LIGHTS) {
+        factor = rgb(&factor, &light.color, A::weight);
+    }
+    let factor = rgb(&factor, &grey::<A, USES>(at.weight), A::weight);
+    let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
+    let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
+    let radiance = factor.map(|f| A::dim(irradiance, f));
+    tally.term::<A>(Term::Direct { light: number }, &radiance);
+    Some(radiance)
 }
 
 /// The part of the irradiance from a direction (over π) that goes back along the ray: Lambert's

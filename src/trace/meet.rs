@@ -60,7 +60,7 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     } else if has(USES, uses::PLANES)
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
-        let surface = plane.surface(ray, meeting, p);
+        let surface = plane.surface_seen::<USES>(ray);
         Some(Place { surface, material: plane.material(), local: *p })
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
         let (place, point) = surface_in_instance(scene, id, *ray, *meeting)?;

@@ -3,9 +3,9 @@
 use super::meet::{meet, meet_any};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
-use crate::scene::uses::{self, has, has_others};
+use crate::scene::uses::{self, each, has, has_others};
 use crate::scene::{Scene, Shapes};
-use crate::shape::{Meeting, Ray};
+use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::Tally;
 use core::ops::Range;
 
@@ -148,21 +148,29 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.first_plane;
-    for plane in planes {
+    each(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
         tally.test();
-        best.take(meet(plane, id, ray, &coarse, best.distance), id);
+        if id != ray.leaving.shape {
+            best.take(plane.meet::<USES>(ray, best.distance), id);
+        }
         id += 1;
-    }
+    });
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
+        let Leaving { shape: left, inwards, .. } = ray.leaving;
+        let (outwards, inwards) = if inwards { (u32::MAX, left) } else { (left, u32::MAX) };
+        let count = shapes.spheres.len() as u32;
         let mut id = 0;
         for sphere in shapes.spheres {
             tally.test();
-            best.take(meet(sphere, id, ray, &coarse, best.distance), id);
+            if id != outwards {
+                let from = id == inwards;
+                best.take(sphere.meet::<USES>(ray, &coarse, from, best.distance), id);
+            }
             id += 1;
         }
-        if has_others(USES) && id != scene.bounded {
-            best = search::<A, T, USES>(shapes, id..scene.bounded, *ray, best, walk, tally);
+        if has_others(USES) && count != scene.bounded {
+            best = search::<A, T, USES>(shapes, count..scene.bounded, *ray, best, walk, tally);
         }
     } else {
         best = search::<A, T, USES>(shapes, 0..0, *ray, best, walk, tally);

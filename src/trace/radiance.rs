@@ -10,10 +10,10 @@ use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
 use super::terms::Terms;
-use super::work::{Scratch, Work};
+use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
-use crate::scene::uses::{self, has, has_indirect};
+use crate::scene::uses::{self, grey, has, has_indirect};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -77,6 +77,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         Self { key, ..self }
     }
 
+    /// The same for a pixel at this [`Row::in_tile`](crate::scene::Row::in_tile): whose turn it is
+    /// among virtual lights.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_turn(self, turn: u8) -> Self {
+        Self { turn, ..self }
+    }
+
     /// The same, adding up these terms alone; all, if the scene is tailored without
     /// [`uses::TERMS`].
     #[inline(always)]
@@ -85,7 +93,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         Self { terms, ..self }
     }
 
-    /// The place of the pixel whose rays follow: see [`Row::in_tile`](crate::scene::Row).
+    /// The place of the pixel whose rays follow: see [`with_turn`](Self::with_turn).
     #[inline(always)]
     pub(crate) fn set_turn(&mut self, turn: u8) {
         self.turn = turn;
@@ -135,7 +143,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     }
 
     /// The radiance along a ray, and, for one that gathers, the distance to what it hits.
-    #[inline(never)]
+    #[inline]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
@@ -159,7 +167,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
-                    let radiance = rgb(&background, &path.weight, A::dim);
+                    let weight = grey::<A, USES>(&path.weight);
+                    let radiance = rgb(&background, &weight, A::dim);
                     tally.term::<A>(Term::Background, &radiance);
                     sum = rgb(&sum, &radiance, A::gather);
                     false
@@ -169,15 +178,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     if has(USES, uses::IRRADIANCE_CACHE) && path.kind == RayKind::Ambient {
                         first = hit.distance;
                     }
-                    let (more, other) =
-                        self.shade(&mut path, &hit, key, &mut sum, &mut work.scratch, tally);
-                    if let Some(other) = other
-                        && let Some(place) = work.waiting.get_mut(waiting)
-                    {
-                        *place = other;
-                        waiting += 1;
-                    }
-                    more
+                    self.shade(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
                 }
             };
             if more {
@@ -194,28 +195,30 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         }
     }
 
-    /// Adds the terms of a hit; turns `path` into the next ray to follow if there is one, and
-    /// returns a second that must wait.
+    /// Adds the terms of a hit; turns `path` into the next ray to follow and says whether there is
+    /// one. A second has to wait.
     #[inline(always)]
-    fn shade<T: Tally>(
+    #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
+    fn shade<T: Tally, const MAX_DEPTH: usize>(
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
         key: u32,
         sum: &mut Rgb<A::Radiance>,
-        scratch: &mut Scratch<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        waiting: &mut usize,
         tally: &mut T,
-    ) -> (bool, Option<Path<A>>) {
+    ) -> bool {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
         let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
-            return (false, None);
+            return false;
         };
         let mut surface = place.surface;
         let Some(material) = scene.material_at(place.material, &place.local) else {
-            return (false, None);
+            return false;
         };
 
         // A textured material is one made for the point, so that nothing below need know.
@@ -274,7 +277,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     depth: path.depth,
                     turn: self.turn,
                 },
-                scratch,
+                &mut work.scratch,
                 tally,
             ) {
             let left_out = some && !self.terms.has(Terms::INDIRECT);
@@ -283,7 +286,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         } else {
             (material.ambient, scene.parts.ambient.0, Term::Ambient)
         };
-        let radiance = rgb(&rgb(&share, &path.weight, A::weight), &irradiance, |w, e| A::dim(e, w));
+        let above = grey::<A, USES>(&path.weight);
+        let radiance = rgb(&rgb(&share, &above, A::weight), &irradiance, |w, e| A::dim(e, w));
         tally.term::<A>(term, &radiance);
         *sum = rgb(sum, &radiance, A::gather);
 
@@ -297,15 +301,16 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             highlights: !self.gathers(),
             key,
         };
-        direct(scene, shading, sum, scratch, tally);
+        direct(scene, shading, sum, &mut work.scratch, tally);
 
         if path.depth >= self.depth {
-            return (false, None);
+            return false;
         }
         let rules = &scene.parts.rules;
-        let depth = path.depth + 1;
-        let mut reflected = material.reflection;
-        let mut transmitted = None;
+        path.depth += 1;
+        let mut reflected = grey::<A, USES>(&material.reflection);
+        let passed = grey::<A, USES>(&material.transmission);
+        let mut passes = false;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
         let fresnel = has(USES, uses::FRESNEL) && material.fresnel;
         if glass || fresnel {
@@ -313,7 +318,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             let direction = &path.ray.direction;
             match A::refract(direction, &surface.normal, surface.cosine, eta) {
                 Some(direction) => {
-                    let mut weight = rgb(&material.transmission, &path.weight, A::weight);
+                    let mut weight = rgb(&passed, &above, A::weight);
                     if fresnel {
                         let cosine = -A::cosine(&surface.normal, &direction);
                         let cosines = [A::weight_of(surface.cosine), positive::<A>(cosine)];
@@ -326,19 +331,20 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                         weight = weight.map(|w| A::weight(w, positive::<A>(cosine)));
                     }
                     if glass && largest(&weight) >= rules.cutoff {
-                        let ray = Ray {
+                        path.ray = Ray {
                             origin: A::leave(&p, &neg(&surface.geometric), hit.distance),
                             direction,
                             leaving: Leaving::through(hit.shape, &surface),
                         };
-                        transmitted =
-                            Some(Path { ray, weight, depth, kind: RayKind::Transmission });
+                        path.weight = weight;
+                        path.kind = RayKind::Transmission;
+                        passes = true;
                     }
                 }
                 // Nothing gets through: the mirror ray carries both, unless the scene says not. By
                 // Fresnel's formula it already carries all of its own.
                 None if !rules.lossy && !fresnel => {
-                    reflected = rgb(&reflected, &material.transmission, |a, b| a + b);
+                    reflected = rgb(&reflected, &passed, |a, b| a + b);
                 }
                 None => {}
             }
@@ -347,25 +353,25 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             || (glass && largest(&reflected) > A::NO_WEIGHT)
             || (glass && has(USES, uses::TRANSMITTERS_REFLECT) && rules.transmitters_reflect)
         {
-            let mut weight = rgb(&reflected, &path.weight, A::weight);
+            let mut weight = rgb(&reflected, &above, A::weight);
             if has(USES, uses::SPECULAR_COSINE) && rules.specular_cosine {
                 let cosine = A::weight_of(surface.cosine);
                 weight = weight.map(|w| A::weight(w, cosine));
             }
             // An interpolated normal can mirror a ray into the surface.
-            let above = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
-            if largest(&weight) >= rules.cutoff && above {
-                *path = Path { ray: outside, weight, depth, kind: RayKind::Reflection };
-                return (true, transmitted);
+            let outwards = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
+            if largest(&weight) >= rules.cutoff && outwards {
+                if passes && let Some(place) = work.waiting.get_mut(*waiting) {
+                    *place = *path;
+                    *waiting += 1;
+                }
+                path.ray = outside;
+                path.weight = weight;
+                path.kind = RayKind::Reflection;
+                return true;
             }
         }
-        match transmitted {
-            Some(next) => {
-                *path = next;
-                (true, None)
-            }
-            None => (false, None),
-        }
+        passes
     }
 }
 

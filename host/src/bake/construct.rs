@@ -3,6 +3,7 @@
 //! The core's constructors are const fns of each arithmetic, and a const fn can't be a trait's.
 //! Here they are, as a trait.
 
+use whitted::gather::{Gathering, GatheringSpec, VirtualLightsSettings, VirtualLightsSpec};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
@@ -114,6 +115,13 @@ construct! {
     /// See [`Plane`].
     fn new_plane(normal: Point, offset: f64, material: u16) -> Made<Plane<Self>>
         = |A| Plane::<A>::try_new(normal, offset, material);
+
+    /// See [`Gathering`].
+    fn new_gathering(spec: &GatheringSpec) -> Made<Gathering<Self>>
+        = |A| Gathering::<A>::try_new(spec);
+    /// See [`VirtualLightsSettings`].
+    fn new_virtual_lights(spec: &VirtualLightsSpec) -> Made<VirtualLightsSettings<Self>>
+        = |A| VirtualLightsSettings::<A>::try_new(spec);
 
     /// Where a sphere lies.
     fn sphere_extent(shape: &Sphere<Self>, log2_step: i8) -> Extent

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitted::trace::{Paths, Terms};
-use whitted_host::document::{Document, Size};
+use whitted_host::document::{Cache, Document, Indirect, Size, VirtualLights};
 use whitted_host::error::SceneError;
 use whitted_host::show::Show;
 
@@ -57,6 +57,37 @@ struct With {
     /// The deepest tree of rays; the camera's ray has depth 1 [default: the scene's]
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=64))]
     depth: Option<u8>,
+    /// The light that surfaces send each other, with the scene's settings of it or the usual ones
+    /// [default: the scene's]
+    #[arg(long, value_enum)]
+    indirect: Option<IndirectName>,
+}
+
+impl With {
+    fn indirect(&self, document: &Document) -> Option<Indirect> {
+        match (self.indirect, document.indirect) {
+            (None, scenes) => scenes,
+            (Some(IndirectName::None), _) => None,
+            (Some(IndirectName::Cache), Some(cache @ Indirect::Cache(_))) => Some(cache),
+            (Some(IndirectName::Cache), _) => Some(Indirect::Cache(Cache::DEFAULT)),
+            (Some(IndirectName::VirtualLights), Some(lights @ Indirect::VirtualLights(_))) => {
+                Some(lights)
+            }
+            (Some(IndirectName::VirtualLights), _) => {
+                Some(Indirect::VirtualLights(VirtualLights::DEFAULT))
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum IndirectName {
+    /// The constant ambient term
+    None,
+    /// Irradiance records, interpolated
+    Cache,
+    /// Virtual lights where paths from the lights arrive
+    VirtualLights,
 }
 
 #[derive(Clone, Copy, ValueEnum)]

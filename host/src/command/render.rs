@@ -81,7 +81,7 @@ pub(super) fn showcase(quiet: bool) -> Result<(), Failure> {
     let options = Options {
         scene: file.clone(),
         out: None,
-        with: With { size: None, arith: Arith::F64, depth: None },
+        with: With { size: None, arith: Arith::F64, depth: None, indirect: None },
         sampling: None,
         deadline: None,
         threads: None,
@@ -104,6 +104,7 @@ fn paint(
         size: options.with.size.or(document.size).unwrap_or(SIZE),
         depth: options.with.depth.unwrap_or(document.rules.depth),
         sampling: options.sampling.unwrap_or(document.rules.sampling),
+        indirect: options.with.indirect(document),
         show: options.show.map(Into::into),
         threads: options
             .threads
@@ -198,8 +199,12 @@ fn report(
         "{size}, {arithmetic}: {:.2} s ({:.2} s to build the scene)\n",
         seconds.render, seconds.build
     ))?;
+    let ambient = match counts.ambient {
+        0 => String::new(),
+        ambient => format!(", {ambient} ambient"),
+    };
     print(format_args!(
-        "{} rays: {} primary, {} reflection, {} transmission, {} shadow\n",
+        "{} rays: {} primary, {} reflection, {} transmission, {} shadow{ambient}\n",
         counts.rays(),
         counts.primary,
         counts.reflection,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use whitted::math::Fixed;
 use whitted_host::bake::{Baked, Construct};
-use whitted_host::document::{Document, Size};
+use whitted_host::document::{Document, Indirect, Size};
 use whitted_host::error::Flaw;
 use whitted_host::read;
 use whitted_host::tree::{Tree, tree};
@@ -33,10 +33,11 @@ pub(super) fn run(options: &Options) -> Result<(), Failure> {
         )));
     }
     let depth = options.with.depth.unwrap_or(document.rules.depth);
+    let indirect = options.with.indirect(&document);
     let tree = match options.with.arith {
-        Arith::Fixed => tree_in::<Fixed>(&document, size, depth, (x, y)),
-        Arith::F32 => tree_in::<f32>(&document, size, depth, (x, y)),
-        Arith::F64 => tree_in::<f64>(&document, size, depth, (x, y)),
+        Arith::Fixed => tree_in::<Fixed>(&document, size, depth, (x, y), indirect),
+        Arith::F32 => tree_in::<f32>(&document, size, depth, (x, y), indirect),
+        Arith::F64 => tree_in::<f64>(&document, size, depth, (x, y), indirect),
     };
     print(format_args!("{}", tree.map_err(|flaw| flaw.of(&options.scene))?))
 }
@@ -46,6 +47,7 @@ fn tree_in<A: Construct>(
     size: Size,
     depth: u8,
     pixel: (u32, u32),
+    indirect: Option<Indirect>,
 ) -> Result<Tree, Flaw> {
-    tree(&Baked::<A>::new(document)?, size, depth, pixel)
+    tree(&Baked::<A>::new(document)?, size, depth, pixel, indirect)
 }

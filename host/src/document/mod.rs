@@ -11,6 +11,7 @@
 mod background;
 mod camera;
 mod group;
+mod indirect;
 mod light;
 mod material;
 mod place;
@@ -24,6 +25,7 @@ mod vector;
 pub use background::Background;
 pub use camera::{Camera, Span};
 pub use group::{Group, Instance};
+pub use indirect::{Cache, Indirect, VirtualLights, distances};
 pub use light::{Area, Falloff, Light, LightKind};
 pub use material::{Checker, Material, ShadowThrough};
 pub use place::Misplaced;
@@ -80,6 +82,8 @@ pub struct Document {
     pub background: Background,
     /// E_amb of the model: the irradiance that comes from everywhere, divided by π.
     pub ambient: Rgb,
+    /// The light that surfaces send each other, instead of the ambient term.
+    pub indirect: Option<Indirect>,
     /// What the classic programs differ in.
     pub rules: Rules,
     /// The materials; shapes and checkers name them by index.

@@ -203,6 +203,7 @@ impl Reader<'_> {
             line,
         });
         Ok(Document {
+            indirect: None,
             camera,
             size: self.view.resolution.map(|(size, _)| size),
             background: Background::Color(self.background.map_or([0.0; 3], |(color, _)| color)),

@@ -311,6 +311,7 @@ impl<'a> Reader<'a> {
             span: Span::Edges,
         };
         let mut document = Document {
+            indirect: None,
             camera,
             size: None,
             background: Background::Color([0.0; 3]),

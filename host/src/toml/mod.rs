@@ -3,6 +3,7 @@
 mod body;
 mod group;
 mod include;
+mod indirect;
 mod light;
 mod material;
 mod place;
@@ -56,6 +57,11 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
     };
     let ambient = scene.color("ambient", 1000.0, [0.0; 3])?;
 
+    let indirect = match scene.get("indirect") {
+        Some(value) => Some(indirect::read(&value.table("indirect")?)?),
+        None => None,
+    };
+
     let mut names = Names::read(&tables(&scene, "material")?, around)?;
     let lights = tables(&scene, "light")?;
     let lights = lights.iter().map(|t| light::read(t, rules.falloff)).collect::<Result<_, _>>()?;
@@ -64,6 +70,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
         size,
         background,
         ambient,
+        indirect,
         rules,
         materials: names.own().to_vec(),
         lights,

@@ -154,6 +154,8 @@ struct FixedFactor {
 pub struct FixedCoarse {
     o: [i32; 3],
     d: [i32; 3],
+    /// o·d.
+    along: i32,
 }
 
 /// Positions lose this many bits in the coarse test.
@@ -344,7 +346,7 @@ impl Arithmetic for Fixed {
     fn coarse(o: &[I16F16; 3], d: &[Unit; 3]) -> FixedCoarse {
         let o = |i: usize| o[i].to_bits() >> COARSE_SHIFT;
         let d = |i: usize| (d[i].to_bits() + 16) >> 5;
-        FixedCoarse { o: [o(0), o(1), o(2)], d: [d(0), d(1), d(2)] }
+        round::coarse([o(0), o(1), o(2)], [d(0), d(1), d(2)])
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Spheres and what is round: squares in the exponent of the radius.
 
-use super::kernel::{length_times_unit, project, shift, units};
+use super::kernel::{length_times_unit, shift};
 use super::{COARSE_SHIFT, FixedCoarse, FixedRadius, Unit};
 use ::fixed::types::I16F16;
 
@@ -27,14 +27,18 @@ impl FixedRadius {
 /// See `Arithmetic::settle`.
 #[inline(always)]
 pub(super) fn settle(r: &FixedRadius, n: &mut [Unit; 3], p: &mut [I16F16; 3]) {
-    // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2
-    let e = (1i32 << 17).wrapping_sub(project(&units(n), &units(n)));
-    let half = e >> 1;
-    let off = length_times_unit(r.bits(), half);
+    // |n|² = 1 − e: a unit vector is n·(1 + e/2), and p is off by r·e/2. Squares of Q17 are Q34,
+    // where 1 is a multiple of 2³²: the wrapping sum of the squares *is* −e, for |e| < ⅛, which
+    // only spheres far smaller than a pixel exceed.
+    let square = |n: Unit| n.to_bits().wrapping_mul(n.to_bits());
+    let e_q34 = square(n[0]).wrapping_add(square(n[1])).wrapping_add(square(n[2])).wrapping_neg();
+    let half = e_q34 >> 18;
+    // 16 bits times 13; a position is off by far less than a unit, so that 18 bits do.
+    let off = (r.mantissa as i32).wrapping_mul(half) >> (17 - (r.shift & 15));
     for (n, p) in n.iter_mut().zip(p) {
         let unit = n.to_bits();
-        *p = I16F16::from_bits(p.to_bits().wrapping_add(length_times_unit(off, unit)));
-        *n = Unit::from_bits(unit.wrapping_add(length_times_unit(unit, half)));
+        *p = I16F16::from_bits(p.to_bits().wrapping_add(off.wrapping_mul(unit >> 4) >> 13));
+        *n = Unit::from_bits(unit.wrapping_add(unit.wrapping_mul(half) >> 17));
     }
 }
 
@@ -79,6 +83,13 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
+/// See `Arithmetic::coarse`.
+#[inline(always)]
+pub(super) fn coarse(o: [i32; 3], d: [i32; 3]) -> FixedCoarse {
+    let p = |i: usize| o[i].wrapping_mul(d[i]);
+    FixedCoarse { o, d, along: p(0).wrapping_add(p(1)).wrapping_add(p(2)) }
+}
+
 /// See `Arithmetic::may_hit`.
 #[inline(always)]
 pub(super) fn may_hit(
@@ -87,10 +98,12 @@ pub(super) fn may_hit(
     r: &FixedRadius,
     limit: I16F16,
 ) -> bool {
-    let c = |i: usize| (center[i].to_bits() >> COARSE_SHIFT).wrapping_sub(ray.o[i]);
+    // (c − o)·d as c·d − o·d, whose second part is the ray's: most spheres are out after that.
+    // It may overflow on the way, which a wrapping difference doesn't mind.
+    let c = |i: usize| center[i].to_bits() >> COARSE_SHIFT;
     let c = [c(0), c(1), c(2)];
     let p = |i: usize| c[i].wrapping_mul(ray.d[i]);
-    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 12;
+    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)).wrapping_sub(ray.along) >> 12;
     // Rounding moves each component of the direction by 2⁻¹³: a sphere that is hit, at most
     // t + r away, by less than 1.4·(t + r)/2¹², of which the radius has its part.
     let r = (r.coarse as i32).wrapping_add(t >> 11);
@@ -101,7 +114,7 @@ pub(super) fn may_hit(
     }
     let mut square = 0u32;
     for i in 0..3 {
-        let f = c[i].wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
+        let f = c[i].wrapping_sub(ray.o[i]).wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
         if f.wrapping_add(r) as u32 > reach {
             return false;
         }
