@@ -1,5 +1,6 @@
 //! What the command line says, and which command does it.
 
+mod bake;
 mod check;
 mod progress;
 mod render;
@@ -40,6 +41,8 @@ enum Command {
     },
     /// Print the tree of rays of one pixel
     Trace(trace::Options),
+    /// Turn a scene into what firmware takes in, and say how much flash it takes
+    Bake(bake::Options),
 }
 
 /// What a scene is rendered with.
@@ -167,6 +170,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Render(options)) => render::run(&options, line.quiet),
         Some(Command::Check { scene }) => check::run(&scene, line.quiet),
         Some(Command::Trace(options)) => trace::run(&options),
+        Some(Command::Bake(options)) => bake::run(&options, line.quiet),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
