@@ -157,14 +157,17 @@ fn jobs(machine: &Machine) -> Vec<Job> {
         (SceneName::Limit, 240, 240),
         (SceneName::Raystones, 120, 60),
         (SceneName::Ftb, 160, 120),
+        (SceneName::Bathroom, 160, 120),
     ];
     let job = |(scene, width, height), arith| {
         let (width, height) =
             if arith == ArithName::F32 && !machine.float { (80, 60) } else { (width, height) };
         Job { scene, arith, width, height, sampling: Sampling::Center }
     };
-    let mut jobs: Vec<Job> =
-        sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith))).collect();
+    let all = sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith)));
+    // Cores without a floating-point unit have no flash for that.
+    let soft = |job: &Job| job.scene == SceneName::Bathroom && job.arith == ArithName::F32;
+    let mut jobs: Vec<Job> = all.filter(|job| machine.float || !soft(job)).collect();
     // The samplings, where they matter: the smallest core, and one with a floating-point unit.
     let arith = if machine.float { ArithName::F32 } else { ArithName::Fixed };
     if ["Cortex-M0", "Cortex-M4F"].contains(&machine.core) {

@@ -17,11 +17,15 @@ pub enum SceneName {
     Raystones,
     /// A peer's scene: the "business card" spheres of FTB.
     Ftb,
+    /// A room of 451 shapes, lit through its window: baked from
+    /// `host/scenes/bathroom-small.toml`.
+    Bathroom,
 }
 
 impl SceneName {
     /// Every scene.
-    pub const ALL: [Self; 4] = [Self::Showcase, Self::Limit, Self::Raystones, Self::Ftb];
+    pub const ALL: [Self; 5] =
+        [Self::Showcase, Self::Limit, Self::Raystones, Self::Ftb, Self::Bathroom];
 
     /// The name as written in a job.
     #[must_use]
@@ -31,6 +35,7 @@ impl SceneName {
             Self::Limit => "limit",
             Self::Raystones => "raystones",
             Self::Ftb => "ftb",
+            Self::Bathroom => "bathroom",
         }
     }
 }
@@ -95,10 +100,14 @@ impl Job {
     /// software floating point finishes in a second or so.
     /// The samplings are tried in fixed point.
     pub fn small() -> impl Iterator<Item = Self> {
-        let job = |scene, arith, sampling| Self { scene, arith, width: 80, height: 60, sampling };
+        let job = |scene, arith, sampling| {
+            let (width, height) = if scene == SceneName::Bathroom { (40, 30) } else { (80, 60) };
+            Self { scene, arith, width, height, sampling }
+        };
         let scenes = SceneName::ALL
             .into_iter()
-            .flat_map(move |s| ArithName::ALL.map(|arith| job(s, arith, Sampling::Center)));
+            .flat_map(move |s| ArithName::ALL.map(|arith| job(s, arith, Sampling::Center)))
+            .filter(|job| job.scene != SceneName::Bathroom || job.arith == ArithName::Fixed);
         let fixed = ArithName::Fixed;
         scenes.chain(SAMPLINGS.map(|(_, sampling)| job(SceneName::Limit, fixed, sampling)))
     }
@@ -136,7 +145,7 @@ impl fmt::Display for JobError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Form => f.write_str("a job is written scene:arithmetic:WIDTHxHEIGHT"),
-            Self::Scene => f.write_str("scenes are showcase, limit, raystones and ftb"),
+            Self::Scene => f.write_str("scenes are showcase, limit, raystones, ftb and bathroom"),
             Self::Arithmetic => f.write_str("arithmetics are fixed and f32"),
             Self::Size => write!(
                 f,
@@ -150,6 +159,13 @@ impl fmt::Display for JobError {
 }
 
 impl core::error::Error for JobError {}
+
+/// Whether a scene is there in an arithmetic: the bathroom isn't for Arm cores that would compute
+/// `f32` in software, whose flash it would not fit.
+const fn carried(scene: SceneName, arith: ArithName) -> bool {
+    let soft = cfg!(all(target_arch = "arm", target_abi = "eabi"));
+    !(soft && matches!((scene, arith), (SceneName::Bathroom, ArithName::F32)))
+}
 
 impl FromStr for Job {
     type Err = JobError;
@@ -166,6 +182,9 @@ impl FromStr for Job {
             SceneName::ALL.into_iter().find(|s| s.name() == scene).ok_or(JobError::Scene)?;
         let arith =
             ArithName::ALL.into_iter().find(|a| a.name() == arith).ok_or(JobError::Arithmetic)?;
+        if !carried(scene, arith) {
+            return Err(JobError::Arithmetic);
+        }
         let side = |text: &str, most| {
             text.parse::<u16>().ok().filter(|&n| n > 0 && n <= most).ok_or(JobError::Size)
         };

@@ -1,5 +1,9 @@
 //! Single precision.
 
+#[allow(dead_code, unreachable_pub, reason = "as it was baked")]
+#[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
+#[path = "bathroom_f32.rs"]
+mod bathroom;
 #[path = "ftb.rs"]
 mod ftb;
 #[path = "limit.rs"]
@@ -50,5 +54,13 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
             let (scene, camera) = (&ftb::SCENE, &ftb::CAMERA);
             view.view(Shot { scene, camera, depth: 3, output: LINEAR })
         }
+        #[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
+        SceneName::Bathroom => {
+            let (scene, camera) = (&bathroom::SCENE, &bathroom::CAMERA);
+            view.view(Shot { scene, camera, depth: bathroom::DEPTH, output: Output::SRGB })
+        }
+        // Not carried there: no job asks for it.
+        #[cfg(all(target_arch = "arm", target_abi = "eabi"))]
+        SceneName::Bathroom => shot(SceneName::Limit, view),
     }
 }

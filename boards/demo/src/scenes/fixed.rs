@@ -1,5 +1,8 @@
 //! Fixed point.
 
+#[allow(dead_code, unreachable_pub, reason = "as it was baked")]
+#[path = "bathroom_fixed.rs"]
+mod bathroom;
 #[path = "ftb.rs"]
 mod ftb;
 #[path = "limit.rs"]
@@ -49,6 +52,10 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
         SceneName::Ftb => {
             let (scene, camera) = (&ftb::SCENE, &ftb::CAMERA);
             view.view(Shot { scene, camera, depth: 3, output: LINEAR })
+        }
+        SceneName::Bathroom => {
+            let (scene, camera) = (&bathroom::SCENE, &bathroom::CAMERA);
+            view.view(Shot { scene, camera, depth: bathroom::DEPTH, output: Output::SRGB })
         }
     }
 }
