@@ -2,6 +2,7 @@
 
 #[allow(dead_code, unreachable_pub, reason = "as it was baked")]
 #[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
+#[rustfmt::skip]
 #[path = "bathroom_f32.rs"]
 mod bathroom;
 #[path = "ftb.rs"]

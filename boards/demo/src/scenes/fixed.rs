@@ -1,6 +1,7 @@
 //! Fixed point.
 
 #[allow(dead_code, unreachable_pub, reason = "as it was baked")]
+#[rustfmt::skip]
 #[path = "bathroom_fixed.rs"]
 mod bathroom;
 #[path = "ftb.rs"]
