@@ -56,6 +56,7 @@
 #![no_std]
 #![deny(unsafe_code)]
 
+pub mod blob;
 mod draw;
 pub mod frame;
 pub mod gather;

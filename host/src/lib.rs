@@ -4,6 +4,7 @@
 //! file says and nothing else.
 
 pub mod bake;
+pub mod build;
 pub mod document;
 pub mod error;
 pub mod flash;

@@ -4,7 +4,7 @@ mod common;
 
 use std::path::{Path, PathBuf};
 
-use common::{errors, files, whitted};
+use common::{errors, files, said, whitted};
 
 const SIZE: &str = "80x60";
 
@@ -67,4 +67,22 @@ fn chips_show_the_same() {
             assert!(db > least, "{name}: {arith} is {db:.1} dB from f64");
         }
     }
+}
+
+/// The number of rays that the command says it sent.
+fn rays(name: &str) -> f64 {
+    let place = tempfile::tempdir().expect("a directory");
+    let out = place.path().join("picture.png");
+    let arguments = ["render", name, "-o", out.to_str().expect("a plain name")];
+    let output = whitted(&scenes(), &arguments);
+    let text = said(&output) + &errors(&output);
+    let line = text.lines().find_map(|line| line.split_once(" rays: "));
+    line.unwrap_or_else(|| panic!("{name}: {text}")).0.parse().expect("a number")
+}
+
+#[test]
+fn a_light_with_an_area_takes_ten_times_the_rays() {
+    // In the course's slides it is 1,688,849 against 152,105 rays: 11.1 times.
+    let times = rays("room-area.toml") / rays("room-point.toml");
+    assert!((8.0..14.0).contains(&times), "{times:.2} times");
 }

@@ -41,6 +41,9 @@ pub use vector::{add, axis_of, largest, neg, rgb, sub};
 pub(crate) use fixed::constructors as fixed_constructors;
 pub(crate) use float::{f32_constructors, f64_constructors};
 
+use bytemuck::{AnyBitPattern, Pod};
+
+use crate::blob::Stored;
 use core::fmt::Debug;
 use core::ops::{Add, Neg, Sub};
 
@@ -61,6 +64,7 @@ pub trait Number:
     + Into<f64>
     + Send
     + Sync
+    + Pod
     + 'static
 {
 }
@@ -77,6 +81,7 @@ impl<T> Number for T where
         + Into<f64>
         + Send
         + Sync
+        + Pod
         + 'static
 {
 }
@@ -86,7 +91,7 @@ impl<T> Number for T where
 /// All operations are total: none panics, whatever the operands, and all are deterministic to
 /// the bit on every target. Where an operation states a range, operands outside it give a wrong
 /// number, not an undefined one.
-pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
+pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// Coordinates and distances.
     type Length: Number;
     /// Components of unit vectors.
@@ -96,7 +101,7 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     /// Radiance or irradiance of a channel, irradiance divided by π.
     type Radiance: Number;
     /// A radius with what is precomputed from it.
-    type Radius: Copy + Debug + Send + Sync;
+    type Radius: Stored + Debug + Send + Sync;
     /// The square of a length no larger than a radius, in that radius' exponent.
     type Leg2: Copy + PartialOrd;
     /// The reciprocal of a length.
@@ -110,14 +115,14 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     /// How fast a medium absorbs light.
     type Decay: Copy + Debug + Send + Sync;
     /// Two linear forms that give the barycentric coordinates of a point in a triangle's plane.
-    type Barycentric: Copy + Debug + Send + Sync;
+    type Barycentric: Stored + Debug + Send + Sync;
     /// A unit vector as a mesh stores it.
-    type Normal: Copy + Debug + Send + Sync;
+    type Normal: Stored + Pod + Debug + Send + Sync;
     /// The rectangle around a polygon, seen along its plane's dominant axis, and the exponent
     /// that its edges share.
-    type Outline: Copy + Debug + Send + Sync;
+    type Outline: Stored + Debug + Send + Sync;
     /// A half plane: one side of an edge of a polygon.
-    type Edge: Copy + Debug + Send + Sync;
+    type Edge: Stored + Debug + Send + Sync;
     /// A point of a polygon's plane, and what it may be wrong.
     type Spot: Copy;
     /// A ray at low precision, for quick rejection.

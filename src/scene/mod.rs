@@ -61,7 +61,7 @@ pub(crate) use area_light::Form;
 pub(crate) use light::{Incident, Source};
 
 use crate::gather::Indirect;
-use crate::math::{Arithmetic, Rgb};
+use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
 use crate::octree::Octree;
 use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon};
 use crate::shape::{PolygonEdge, SmoothTriangle, Solid, Sphere, Triangle};
@@ -106,6 +106,32 @@ impl<A: Arithmetic> Rules<A> {
     /// The rules of the Neutral File Format's databases: Whitted's, without a cut-off.
     pub const NFF: Self =
         Self { transmitters_reflect: true, cutoff: A::NO_WEIGHT, ..Self::WHITTED };
+}
+
+for_each_arithmetic! {
+    impl Rules<A> {
+        /// [`COURSE`](Self::COURSE) with another cut-off.
+        ///
+        /// # Panics
+        /// A cut-off that isn't in 0 to 1.
+        pub const fn with_cutoff(cutoff: f64) -> Self {
+            match Self::try_with_cutoff(cutoff) {
+                Some(rules) => rules,
+                None => panic!("the cut-off is 0 to 1"),
+            }
+        }
+
+        /// [`COURSE`](Self::COURSE) with another cut-off; `None` where it isn't in 0 to 1.
+        pub const fn try_with_cutoff(cutoff: f64) -> Option<Self> {
+            if !(cutoff >= 0.0 && cutoff <= 1.0) {
+                return None;
+            }
+            match make::weight(cutoff) {
+                Some(cutoff) => Some(Self { cutoff, ..Self::COURSE }),
+                None => None,
+            }
+        }
+    }
 }
 
 /// What a scene is put together from. Shapes are numbered through in the order of the fields,

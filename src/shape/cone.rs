@@ -16,16 +16,20 @@
 //! common: where the roots are in order, what lies between them; where not, what lies beyond either,
 //! of which the slab meets one.
 
+use bytemuck::AnyBitPattern;
+
 use super::chord::{Chord, Convex};
 use super::cylinder::cap;
 use super::projection::{dot, minus};
 use super::{MaterialId, Meeting, Open, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned_to, unit_vector};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sqrt_f64, sub};
 use crate::octree::Extent;
 
 /// A cone or frustum, without caps unless [made with them](Self::with_caps).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Cone<A: Arithmetic> {
     middle: [A::Length; 3],
     axis: [A::Unit; 3],
@@ -37,8 +41,19 @@ pub struct Cone<A: Arithmetic> {
     /// Half the height, in bounding radii.
     half: A::Unit,
     material: MaterialId,
-    capped: bool,
+    /// 1 with caps, else 0: a type that any bits may be.
+    capped: u8,
 }
+
+stored!(Cone {
+    middle: lengths,
+    axis: units,
+    bound: nested,
+    sin_cos: units,
+    waist: unit,
+    half: unit,
+    material: whole, capped: whole
+} if *capped <= 1);
 
 for_each_arithmetic! {
     impl Cone<A> {
@@ -104,7 +119,7 @@ for_each_arithmetic! {
                 waist: some_or!(make::unit((r0 + r1) * 0.5 * cos / size), Size),
                 half: some_or!(make::unit(length * 0.5 / size), Size),
                 material: if inside { id.showing_inside() } else { id },
-                capped: false,
+                capped: 0,
             })
         }
 
@@ -166,7 +181,7 @@ for_each_arithmetic! {
                 }
                 end += 1;
             }
-            Extent::Round { ends, radii, hollow: !self.capped }
+            Extent::Round { ends, radii, hollow: self.capped == 0 }
         }
     }
 }
@@ -181,12 +196,12 @@ impl<A: Arithmetic> Cone<A> {
     /// The same, closed by a disc at each end.
     #[must_use]
     pub const fn with_caps(mut self) -> Self {
-        self.capped = true;
+        self.capped = 1;
         self
     }
 
     pub(crate) const fn has_caps(&self) -> bool {
-        self.capped
+        self.capped != 0
     }
 
     #[inline(never)]
@@ -250,7 +265,7 @@ impl<A: Arithmetic> Shape<A> for Cone<A> {
         inwards: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        if self.capped {
+        if self.capped != 0 {
             return self.nearest_with_caps(*ray, *coarse, inwards, limit);
         }
         Open(self).nearest(ray, coarse, inwards, limit)

@@ -6,19 +6,25 @@
 //! gives the farthest distance there is, which says the right thing on either side. Entry and exit
 //! through one edge are compared as the same two numbers, so that no ray slips in between faces.
 
+use bytemuck::AnyBitPattern;
+
 use super::chord::{Chord, Convex};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point};
+use crate::blob::stored;
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic};
 use crate::octree::Extent;
 
 /// A box whose sides are parallel to the coordinate planes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Cuboid<A: Arithmetic> {
     min: [A::Length; 3],
     max: [A::Length; 3],
     material: MaterialId,
 }
+
+stored!(Cuboid { min: lengths, max: lengths, material: whole } if min.iter().zip(max).all(|(low, high)| low <= high));
 
 for_each_arithmetic! {
     impl Cuboid<A> {

@@ -8,22 +8,29 @@
 //!
 //! With caps it is what the endless cylinder and the slab between two planes have in common.
 
+use bytemuck::AnyBitPattern;
+
 use super::chord::{Chord, Convex, signed_ratio};
 use super::{MaterialId, Meeting, Open, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned_to, unit_vector};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sqrt_f64, sub};
 use crate::octree::Extent;
 
 /// A cylinder, without caps unless [made with them](Self::with_caps).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Cylinder<A: Arithmetic> {
     base: [A::Length; 3],
     axis: [A::Unit; 3],
     length: A::Length,
     radius: A::Radius,
     material: MaterialId,
-    capped: bool,
+    /// 1 with caps, else 0: a type that any bits may be.
+    capped: u8,
 }
+
+stored!(Cylinder { base: lengths, axis: units, length: length, radius: nested, material: whole, capped: whole } if *capped <= 1);
 
 for_each_arithmetic! {
     impl Cylinder<A> {
@@ -59,7 +66,7 @@ for_each_arithmetic! {
                 length: some_or!(make::length(length), Size),
                 radius: some_or!(make::radius(if radius < 0.0 { -radius } else { radius }), Size),
                 material: if radius < 0.0 { id.showing_inside() } else { id },
-                capped: false,
+                capped: 0,
             })
         }
 
@@ -92,7 +99,7 @@ for_each_arithmetic! {
                 apex[i] = make::grid(a, log2_step);
                 i += 1;
             }
-            Extent::Round { ends: [base, apex], radii: [r, r], hollow: !self.capped }
+            Extent::Round { ends: [base, apex], radii: [r, r], hollow: self.capped == 0 }
         }
     }
 }
@@ -107,12 +114,12 @@ impl<A: Arithmetic> Cylinder<A> {
     /// The same, closed by a disc at each end.
     #[must_use]
     pub const fn with_caps(mut self) -> Self {
-        self.capped = true;
+        self.capped = 1;
         self
     }
 
     pub(crate) const fn has_caps(&self) -> bool {
-        self.capped
+        self.capped != 0
     }
 
     /// The direction's part across the axis as a unit vector and its length, and the part along it.
@@ -181,7 +188,7 @@ impl<A: Arithmetic> Shape<A> for Cylinder<A> {
         inwards: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        if self.capped {
+        if self.capped != 0 {
             return self.nearest_with_caps(*ray, *coarse, inwards, limit);
         }
         Open(self).nearest(ray, coarse, inwards, limit)

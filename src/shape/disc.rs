@@ -4,19 +4,25 @@
 //! is on the disc if r² − |c − t·d|² is positive, c being the centre relative to the ray's origin:
 //! the expression that a sphere asks for where the ray comes nearest to it.
 
+use bytemuck::AnyBitPattern;
+
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{meets_plane, ok_or_panic, point, some_or, turned, unit_vector};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sqrt_f64, sub};
 use crate::octree::Extent;
 
 /// A flat disc. Its front is where the normal points.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Disc<A: Arithmetic> {
     center: [A::Length; 3],
     normal: [A::Unit; 3],
     radius: A::Radius,
     material: MaterialId,
 }
+
+stored!(Disc { center: lengths, normal: units, radius: nested, material: whole });
 
 for_each_arithmetic! {
     impl Disc<A> {

@@ -41,6 +41,8 @@ pub use solid::{Operand, Solid, SolidView};
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 
+use bytemuck::{Pod, Zeroable};
+
 use crate::math::Arithmetic;
 
 /// A half-line, and which shape it leaves.
@@ -158,7 +160,8 @@ pub trait Shape<A: Arithmetic> {
 pub(crate) struct Open<'s, S>(pub(crate) &'s S);
 
 /// Which of the scene's materials a shape has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(transparent)]
 pub struct MaterialId(u16);
 
 impl MaterialId {

@@ -4,14 +4,18 @@
 //! it at −h/c, if h and c have opposite signs. A plane across an axis needs no products: the
 //! height is a difference of two numbers and the cosine a component of the direction.
 
+use bytemuck::AnyBitPattern;
+
 use super::chord::{Chord, Convex, signed_ratio};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{meets_plane, ok_or_panic, some_or, turned};
+use crate::blob::stored;
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic, unit_f64};
 use crate::scene::uses;
 
 /// An infinite plane. It lies outside the octree; its front is where the normal points.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Plane<A: Arithmetic> {
     normal: [A::Unit; 3],
     /// n·p of its points.
@@ -20,6 +24,8 @@ pub struct Plane<A: Arithmetic> {
     /// 0 to 2: the normal is this axis, in positive direction; 3: any.
     axis: u8,
 }
+
+stored!(Plane { normal: units, offset: length, material: whole, axis: whole } if *axis < 4);
 
 for_each_arithmetic! {
     impl Plane<A> {

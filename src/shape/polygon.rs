@@ -7,9 +7,12 @@
 //!
 //! The edges of all polygons of a scene lie in one slice, and a polygon knows which are its own.
 
+use bytemuck::AnyBitPattern;
+
 use super::projection::{Projection, abs, cycled, dominant, dot, minus, reach, uncycled};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, rounded_point, some_or};
+use crate::blob::{Stored, stored};
 use crate::math::{Arithmetic, cross_f64, for_each_arithmetic, sqrt_f64};
 use crate::octree::Extent;
 
@@ -18,7 +21,8 @@ use crate::octree::Extent;
 const TOLERANCE: f64 = 1e-3;
 
 /// A convex polygon; its edges lie elsewhere. From its front the corners go counter-clockwise.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Polygon<A: Arithmetic> {
     plane: Projection<A>,
     /// The middle of the rectangle around the corners, without the plane's dominant axis.
@@ -30,9 +34,22 @@ pub struct Polygon<A: Arithmetic> {
     material: MaterialId,
 }
 
+stored!(Polygon { plane: nested, center: lengths, outline: nested, first_edge: whole, edge_count: whole, axis: whole, material: whole } if *axis < 3 && *edge_count >= 3);
+
 /// An edge of a [`Polygon`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(transparent)]
 pub struct PolygonEdge<A: Arithmetic>(A::Edge);
+
+impl<A: Arithmetic> Stored for PolygonEdge<A> {
+    fn store(&self, to: &mut [u8]) {
+        self.0.store(to);
+    }
+
+    fn is_sound(&self) -> bool {
+        self.0.is_sound()
+    }
+}
 
 /// A polygon and its edges: the shape that rays meet.
 #[derive(Clone, Copy, Debug)]

@@ -9,17 +9,23 @@
 //! tilts the plane but doesn't move it. In fixed point the quotient's dividend must stay below
 //! [`FAR`](Arithmetic::FAR): a slanted plane can be lost from 591 units on.
 
+use bytemuck::AnyBitPattern;
+
 use super::{Meeting, Ray, Surface, meets_plane, turned_to};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic};
 
 /// A plane, and the cosine that makes its normal a unit vector.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub(crate) struct Projection<A: Arithmetic> {
     slopes: [A::Unit; 2],
     offset: A::Length,
     /// The unit normal's component along the dominant axis, whose sign says where the front is.
     cosine: A::Unit,
 }
+
+stored!(Projection { slopes: units, offset: length, cosine: unit });
 
 /// Where a ray meets the plane.
 pub(crate) struct Crossing<A: Arithmetic> {

@@ -4,18 +4,24 @@
 //! away from the ray, as happens near a mesh's silhouette, the flat normal takes its place: a
 //! cosine is never negative, and a mirror ray never starts into the surface.
 
+use bytemuck::AnyBitPattern;
+
 use super::projection::dot;
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface, Triangle};
 use super::{ok_or_panic, some_or};
+use crate::blob::stored;
 use crate::math::{Arithmetic, cross_f64, for_each_arithmetic, neg, unit_f64};
 use crate::octree::Extent;
 
 /// A triangle with a normal at each corner.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct SmoothTriangle<A: Arithmetic> {
     flat: Triangle<A>,
     normals: [A::Normal; 3],
 }
+
+stored!(SmoothTriangle { flat: nested, normals: normals });
 
 for_each_arithmetic! {
     impl SmoothTriangle<A> {

@@ -10,20 +10,26 @@
 //! shadow ray needs no root: a sphere whose near point lies beyond the segment blocks it if the
 //! squared half chord exceeds the square of what lies beyond.
 
+use bytemuck::AnyBitPattern;
+
 use super::chord::{Chord, Convex};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, point, some_or, turned};
+use crate::blob::stored;
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 use crate::octree::Extent;
 use crate::scene::uses::{self, has};
 
 /// A sphere.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Sphere<A: Arithmetic> {
     center: [A::Length; 3],
     radius: A::Radius,
     material: MaterialId,
 }
+
+stored!(Sphere { center: lengths, radius: nested, material: whole });
 
 for_each_arithmetic! {
     impl Sphere<A> {

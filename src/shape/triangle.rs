@@ -9,14 +9,18 @@
 //! along shared edges, a triangle is larger than it is by what a hit may be off (see
 //! [`Arithmetic::barycentric`]): two neighbours overlap by some steps of their precision.
 
+use bytemuck::AnyBitPattern;
+
 use super::projection::{Projection, abs, cycled, dominant, minus, reach, uncycled};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, rounded_point, some_or};
+use crate::blob::stored;
 use crate::math::{Arithmetic, cross_f64, for_each_arithmetic};
 use crate::octree::Extent;
 
 /// A flat triangle. From its front the corners go counter-clockwise.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct Triangle<A: Arithmetic> {
     plane: Projection<A>,
     /// The first corner, without the plane's dominant axis.
@@ -25,6 +29,8 @@ pub struct Triangle<A: Arithmetic> {
     material: MaterialId,
     axis: u8,
 }
+
+stored!(Triangle { plane: nested, corner: lengths, form: nested, material: whole, axis: whole } if *axis < 3);
 
 for_each_arithmetic! {
     impl Triangle<A> {

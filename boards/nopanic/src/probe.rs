@@ -15,6 +15,7 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
+use whitted::blob::{self, Blob, Content};
 use whitted::frame::Transfer;
 use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
@@ -306,7 +307,34 @@ macro_rules! arithmetic {
                 any([0.0; 3]),
                 any([1.0; 3]),
             );
-            render(&scene, &any(camera.ok()?), <$tally>::default())
+            render(&scene, &any(camera.ok()?), <$tally>::default());
+
+            let blob = Blob::<$a>::open(any(&[0; 1000]));
+            if let Err(error) = &blob {
+                any(error);
+            }
+            let blob = any(blob.ok()?);
+            any((blob.counts(), blob.uses(), blob.depth(), blob.setting()));
+            any(blob.camera().ok()?);
+            let (mut materials, mut lights) = (any(materials), any(lights));
+            let scene: Scene<'_, $a> = blob.scene(any(&mut materials), any(&mut lights)).ok()?;
+            any(scene.parts());
+            let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
+            let content = Content {
+                shapes,
+                planes: any(&planes),
+                tree: Some((any(&words), cube, any(-16))),
+                materials: &specs,
+                lights: &kinds,
+                setting: *blob.setting(),
+                uses: any(7),
+            };
+            let mut bytes = any([0; 64]);
+            content.write(&mut |part| {
+                any(part);
+            });
+            blob::seal(any(&mut bytes));
+            Some(())
         }
     };
 }

@@ -8,8 +8,8 @@ use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
     Absorption, Ambient, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Group, Instance,
-    Light, LightSpec, Material, MaterialSpec, Parts, Scene, SceneError, Selection, Shapes, Texture,
-    TextureSpec, Transform,
+    Light, LightSpec, Material, MaterialSpec, Parts, Rules, Scene, SceneError, Selection, Shapes,
+    Texture, TextureSpec, Transform,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
@@ -37,8 +37,8 @@ macro_rules! construct {
             /// How far octrees go.
             const LIMITS: Limits;
 
-            /// A coefficient; too large ones become the largest.
-            fn coefficient(value: f64) -> Self::Weight;
+            /// The rules of [`Rules::COURSE`] with another cut-off, 0 to 1.
+            fn rules_with_cutoff(cutoff: f64) -> Rules<Self>;
             $(
                 $(#[$about])*
                 #[allow(clippy::missing_errors_doc)]
@@ -46,15 +46,14 @@ macro_rules! construct {
             )*
         }
 
-        construct!(@for Fixed, true, Limits::DEFAULT,
-            |x| <Fixed as Arithmetic>::Weight::saturating_from_num(x);
+        construct!(@for Fixed, true, Limits::DEFAULT;
             $(fn $name$(<$life>)?($($argument: $type),*) -> $made = |$A| $make;)*);
-        construct!(@for f32, false, FLOAT_LIMITS, |x: f64| x as f32;
+        construct!(@for f32, false, FLOAT_LIMITS;
             $(fn $name$(<$life>)?($($argument: $type),*) -> $made = |$A| $make;)*);
-        construct!(@for f64, false, FLOAT_LIMITS, |x| x;
+        construct!(@for f64, false, FLOAT_LIMITS;
             $(fn $name$(<$life>)?($($argument: $type),*) -> $made = |$A| $make;)*);
     };
-    (@for $a:ty, $narrow:expr, $limits:expr, |$x:ident $(: $xt:ty)?| $weight:expr;
+    (@for $a:ty, $narrow:expr, $limits:expr;
         $(fn $name:ident$(<$life:lifetime>)?($($argument:ident: $type:ty),*) -> $made:ty
             = |$A:ident| $make:expr;)*
     ) => {
@@ -62,8 +61,8 @@ macro_rules! construct {
             const NARROW: bool = $narrow;
             const LIMITS: Limits = $limits;
 
-            fn coefficient($x: f64) -> Self::Weight {
-                $weight
+            fn rules_with_cutoff(cutoff: f64) -> Rules<Self> {
+                Rules::<$a>::with_cutoff(cutoff)
             }
             $(
                 fn $name$(<$life>)?($($argument: $type),*) -> $made {

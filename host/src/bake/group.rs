@@ -3,7 +3,7 @@
 use whitted::scene::{Group, Instance, Transform};
 use whitted::shape::ShapeError;
 
-use super::shapes::Shapes;
+use super::shapes::{Shapes, Thrift};
 use super::{Construct, refused};
 use crate::document::{self, Document};
 use crate::error::{Flaw, Problem};
@@ -27,11 +27,11 @@ struct Place {
 
 impl<A: Construct> Groups<A> {
     /// Makes the groups of a document that has been placed.
-    pub(super) fn new(document: &Document) -> Result<Self, Flaw> {
+    pub(super) fn new(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let used = |index| document.instances.iter().any(|i| i.group == index);
         let group = |(index, group): (usize, &document::Group)| {
             let shapes: &[_] = if used(index) { &group.shapes } else { &[] };
-            Shapes::new(shapes, group.bounds(), |_| document.file_of_group(index))
+            Shapes::new(shapes, group.bounds(), |_| document.file_of_group(index), thrift)
         };
         let place = |instance: &document::Instance| {
             let refuse = |e| refused::<A>("the instance", e, Some(instance.line));

@@ -1,17 +1,23 @@
 //! From a [`Document`] to the core's scene in one of its arithmetics, in memory.
 
+mod blob;
 mod construct;
 mod group;
 mod light;
 mod place;
 mod shapes;
+mod source;
+mod specs;
 
+pub use blob::{Flash, parts_of};
 pub use construct::Construct;
 use group::Groups;
 use light::Lights;
 pub use place::Placement;
 use shapes::Shapes;
+pub use shapes::Thrift;
 
+use whitted::blob::CameraSpec;
 use whitted::scene::{
     Absorption, Ambient, Background, Camera, Material, MaterialSpec, Parts, PatternSpec, Rules,
     Scene, Selection, Shadow, Texture, TextureSpec,
@@ -44,6 +50,14 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// What of it the arithmetic can't hold, with its line.
     pub fn new(document: &Document) -> Result<Self, Flaw> {
+        Self::with(document, Thrift::Time)
+    }
+
+    /// Bakes a document, its octree as large as is wanted.
+    ///
+    /// # Errors
+    /// What of it the arithmetic can't hold, with its line.
+    pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
         let mut placed = placement.place(document);
         let bodies = placed.embody();
@@ -52,10 +66,11 @@ impl<A: Construct> Baked<A> {
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
         let detail = detail(&placed)?;
-        let shapes = Shapes::new(&placed.shapes, placed.bounds(), |i| placed.file_of_shape(i))?;
+        let file = |i| placed.file_of_shape(i);
+        let shapes = Shapes::new(&placed.shapes, placed.bounds(), file, thrift)?;
         let baked = Self {
             placement,
-            groups: Groups::new(&placed)?,
+            groups: Groups::new(&placed, thrift)?,
             materials: materials(&placed)?,
             textures: detail.textures,
             absorptions: detail.absorptions,
@@ -100,7 +115,7 @@ impl<A: Construct> Baked<A> {
                 highlight_cosine: rules.highlight_cosine,
                 transmitters_reflect: rules.transmitters_reflect,
                 lossy: rules.lossy_total_reflection,
-                cutoff: A::coefficient(rules.cutoff),
+                ..A::rules_with_cutoff(rules.cutoff)
             },
             ..self.shapes.parts()?
         });
@@ -115,10 +130,8 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The arithmetic can't hold it.
     pub fn camera(&self, size: Size) -> Result<Camera<A>, Flaw> {
-        let camera = &self.placed.camera;
-        let tangent = (camera.edge_angle(size).to_radians() / 2.0).tan();
-        A::new_camera(camera.eye, camera.look_at, camera.up, tangent)
-            .map_err(|error| refused::<A>("the camera", error, None))
+        let CameraSpec { eye, at, up, tangent } = specs::camera(&self.placed.camera, size);
+        A::new_camera(eye, at, up, tangent).map_err(|error| refused::<A>("the camera", error, None))
     }
 
     /// The document's shape that has this number in the core's scene, and the file that it came

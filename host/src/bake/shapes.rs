@@ -1,6 +1,6 @@
 //! The shapes of a scene by kinds, as the core numbers them, and the octree over them.
 
-use whitted::octree::{BuildError, Built, Cube, Extent, Octree, build_into};
+use whitted::octree::{BuildError, Built, Cube, Extent, Limits, Octree, build_into};
 use whitted::scene::{Parts, TriangleUv};
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, ShapeError,
@@ -14,6 +14,20 @@ use std::path::Path;
 
 /// Below this a list is quicker than a tree.
 const LEAST_FOR_A_TREE: usize = 10;
+
+/// So many levels a tree for flash may have less than rays would like: each costs a fifth more
+/// work, and the next one would cost twice as much.
+const FEWER_LEVELS: usize = 2;
+
+/// What the octree should save.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Thrift {
+    /// Time: as many cells as make rays cheaper.
+    Time,
+    /// Flash: a level or two less, where the tree would take more than two thirds of what the
+    /// shapes take. The picture is the same.
+    Flash,
+}
 
 /// The shapes of one kind, where they lie, and their places in the document.
 #[derive(Debug)]
@@ -116,6 +130,7 @@ impl<A: Construct> Shapes<A> {
         all: &[Shape],
         bounds: Option<Bounds>,
         file: impl Fn(usize) -> Option<&'f Path>,
+        thrift: Thrift,
     ) -> Result<Self, Flaw> {
         let mut shapes = Self {
             spheres: Kind::default(),
@@ -148,7 +163,7 @@ impl<A: Construct> Shapes<A> {
         if all.iter().all(|shape| shape.uv.is_none()) {
             shapes.uvs.clear();
         }
-        shapes.grow()?;
+        shapes.grow(thrift)?;
         Ok(shapes)
     }
 
@@ -220,29 +235,28 @@ impl<A: Construct> Shapes<A> {
         Ok(())
     }
 
-    /// Builds the tree, in as much memory as it takes.
-    fn grow(&mut self) -> Result<(), Flaw> {
+    /// Builds the tree.
+    fn grow(&mut self, thrift: Thrift) -> Result<(), Flaw> {
         let mut extents = Vec::new();
         bounded!(self, kind => extents.extend_from_slice(&kind.extents));
         if extents.len() < LEAST_FOR_A_TREE {
             return Ok(());
         }
-        let mut room = 8 * extents.len();
-        loop {
-            let (mut words, mut scratch) = (vec![0; room], vec![0; room]);
-            match build_into(&extents, &mut words, &mut scratch, A::LIMITS) {
-                Ok(Built { words: used, cube, levels, .. }) => {
-                    words.truncate(used);
-                    self.tree = Some(Tree { words, cube, levels });
-                    return Ok(());
+        let mut limits = A::LIMITS;
+        let mut tree = build(&extents, limits)?;
+        if thrift == Thrift::Flash {
+            let mut shapes = size_of_val(self.edges.as_slice());
+            bounded!(self, kind => shapes += size_of_val(kind.shapes.as_slice()));
+            for _ in 0..FEWER_LEVELS {
+                if 3 * size_of_val(tree.words.as_slice()) <= 2 * shapes || tree.levels == 0 {
+                    break;
                 }
-                // More than this no tree needs that is worth having.
-                Err(BuildError::Words | BuildError::Scratch) if room < 4096 * extents.len() => {
-                    room *= 2;
-                }
-                Err(error) => return Err(unfit(&error)),
+                limits.levels = tree.levels - 1;
+                tree = build(&extents, limits)?;
             }
         }
+        self.tree = Some(tree);
+        Ok(())
     }
 
     /// The shapes and the tree, as the core wants them; the rest is empty.
@@ -298,6 +312,11 @@ impl<A: Construct> Shapes<A> {
         Err(left as u32)
     }
 
+    /// The tree's words, its cube, and the step of its grid, if there is a tree.
+    pub(super) fn words(&self) -> Option<(&[u32], Cube, i8)> {
+        self.tree.as_ref().map(|tree| (tree.words.as_slice(), tree.cube, self.log2_step))
+    }
+
     /// The number of the shape of this index in the document.
     pub(super) fn number(&self, index: usize) -> Option<u32> {
         (0..self.bounded()).find(|&number| self.origin(number) == Ok(index))
@@ -306,6 +325,25 @@ impl<A: Construct> Shapes<A> {
     /// Words and levels of the tree, if there is one.
     pub(super) fn tree(&self) -> Option<(usize, u8)> {
         self.tree.as_ref().map(|tree| (tree.words.len(), tree.levels))
+    }
+}
+
+/// Builds a tree, in as much memory as it takes.
+fn build(extents: &[Extent], limits: Limits) -> Result<Tree, Flaw> {
+    let mut room = 8 * extents.len();
+    loop {
+        let (mut words, mut scratch) = (vec![0; room], vec![0; room]);
+        match build_into(extents, &mut words, &mut scratch, limits) {
+            Ok(Built { words: used, cube, levels, .. }) => {
+                words.truncate(used);
+                return Ok(Tree { words, cube, levels });
+            }
+            // More than this no tree needs that is worth having.
+            Err(BuildError::Words | BuildError::Scratch) if room < 4096 * extents.len() => {
+                room *= 2;
+            }
+            Err(error) => return Err(unfit(&error)),
+        }
     }
 }
 

@@ -34,7 +34,10 @@ pub(super) fn run(file: &Path, quiet: bool) -> Result<(), Failure> {
         line("size", format_args!("{size}"))?;
     }
     line("depth", format_args!("{}", document.rules.depth))?;
-    line("paths", format_args!("{}", super::covered(&document, document.rules.depth)))?;
+    line(
+        "paths",
+        format_args!("{}", super::covered(&document, document.rules.depth, document.indirect)),
+    )?;
     if let Some(bounds) = document.bounds() {
         let [low, high] = [bounds.low, bounds.high].map(|p| p.map(|x| format!("{x:.4}")).join(" "));
         let planes = document.shapes.iter().any(|s| matches!(s.body, Body::Plane { .. }));

@@ -1,5 +1,6 @@
 //! What the command line says, and which command does it.
 
+mod bake;
 mod check;
 mod progress;
 mod render;
@@ -40,6 +41,8 @@ enum Command {
     },
     /// Print the tree of rays of one pixel
     Trace(trace::Options),
+    /// Turn a scene into what firmware takes in, and say how much flash it takes
+    Bake(bake::Options),
 }
 
 /// What a scene is rendered with.
@@ -120,9 +123,11 @@ impl From<ShowName> for Show {
     }
 }
 
-/// The paths of light that pictures of a scene cover. Interreflection isn't there to show.
-fn covered(document: &Document, depth: u8) -> Paths {
-    document.rules.terms.without(Terms::INDIRECT).paths(depth)
+/// The paths of light that pictures of a scene cover: interreflection instead of the ambient term,
+/// where there is any.
+fn covered(document: &Document, depth: u8, indirect: Option<Indirect>) -> Paths {
+    let replaced = if indirect.is_some() { Terms::AMBIENT } else { Terms::INDIRECT };
+    document.rules.terms.without(replaced).paths(depth)
 }
 
 fn size(text: &str) -> Result<Size, String> {
@@ -165,6 +170,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Render(options)) => render::run(&options, line.quiet),
         Some(Command::Check { scene }) => check::run(&scene, line.quiet),
         Some(Command::Trace(options)) => trace::run(&options),
+        Some(Command::Bake(options)) => bake::run(&options, line.quiet),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -118,7 +118,7 @@ fn paint(
     }
     .map_err(|flaw| flaw.of(file))?;
 
-    let paths = super::covered(document, settings.depth);
+    let paths = super::covered(document, settings.depth, settings.indirect);
     let picture = &rendered.picture;
     let to_stdout = out == Path::new("-");
     let written = if to_stdout { picture.write_png(stdout().lock()) } else { picture.save(out) };

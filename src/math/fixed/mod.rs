@@ -18,8 +18,11 @@ mod light;
 mod place;
 mod round;
 
+use bytemuck::AnyBitPattern;
+
 use super::root::{reciprocal_q28, sqrt_u32};
 use super::{Arithmetic, log, root};
+use crate::blob::stored_numbers;
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
 use kernel::{length_times_unit, lengths, magnitude, project, shift, units};
@@ -30,11 +33,12 @@ type Aim = FixedI32<U26>;
 
 /// Q16.16 positions and Q17 directions in 32-bit words; needs no floating-point unit and no wide
 /// multiplier.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
 pub struct Fixed;
 
 /// A radius of sixteen significant bits, and its reciprocal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct FixedRadius {
     /// The radius is `mantissa << shift`, in 2⁻¹⁶; squares are taken after the same shift.
     mantissa: u16,
@@ -80,7 +84,8 @@ pub struct FixedDecay(u32);
 
 /// See [`Arithmetic::Barycentric`]: each form is `p·(x >> shift) + q·(y >> shift)`, 1 standing
 /// at `14 + down` fraction bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct FixedBarycentric {
     second: [i16; 2],
     third: [i16; 2],
@@ -90,7 +95,8 @@ pub struct FixedBarycentric {
 }
 
 /// See [`Arithmetic::Outline`]: half the sides in steps of 2^(`shift` − 16).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct FixedOutline {
     half: [u16; 2],
     shift: u8,
@@ -98,11 +104,21 @@ pub struct FixedOutline {
 
 /// See [`Arithmetic::Edge`]: `normal·(x, y) + offset·2¹⁴`, not negative inside, x and y in the
 /// outline's steps; the larger component of the normal is ±2¹⁴.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct FixedEdge {
     normal: [i16; 2],
     offset: i16,
 }
+
+stored_numbers!(FixedRadius { mantissa, reciprocal, coarse, shift, missing }
+    if |r| r.shift <= 12 && r.missing <= 15);
+stored_numbers!(FixedBarycentric { second, third, second_down, third_down, shift }
+    if |f| f.second_down <= 16 && f.third_down <= 16 && f.shift <= 16
+        && f.second.iter().chain(&f.third).all(|x| x.unsigned_abs() <= 16384));
+stored_numbers!(FixedOutline { half, shift } if |o| o.shift <= 16 && o.half.iter().all(|&x| x <= 16385));
+stored_numbers!(FixedEdge { normal, offset }
+    if |e| e.normal.iter().all(|x| x.unsigned_abs() <= 16384));
 
 /// See [`Arithmetic::Spot`].
 #[derive(Clone, Copy, Debug)]

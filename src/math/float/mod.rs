@@ -5,11 +5,16 @@
 
 mod constructors;
 
+use bytemuck::{AnyBitPattern, Pod};
+
+use super::Number;
 use super::{Arithmetic, root};
+use crate::blob::{stored_numbers, within};
 
 /// A radius and its reciprocal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatRadius<F> {
+#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
+#[repr(C)]
+pub struct FloatRadius<F: Pod> {
     r: F,
     reciprocal: F,
 }
@@ -20,8 +25,9 @@ pub struct FloatEta<F>(F);
 
 /// See [`Arithmetic::Barycentric`]: the coefficients of both linear forms, and what each must
 /// allow for every unit that a hit is off.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatBarycentric<F> {
+#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
+#[repr(C)]
+pub struct FloatBarycentric<F: Pod> {
     second: [F; 2],
     third: [F; 2],
     slack: [F; 2],
@@ -31,18 +37,31 @@ pub struct FloatBarycentric<F> {
 
 /// See [`Arithmetic::Outline`]: half the sides of the rectangle, and how far from the
 /// coordinates' origin the polygon reaches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatOutline<F> {
+#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
+#[repr(C)]
+pub struct FloatOutline<F: Pod> {
     half: [F; 2],
     reach: F,
 }
 
 /// See [`Arithmetic::Edge`]: `normal·(x, y) + offset`, not negative inside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatEdge<F> {
+#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
+#[repr(C)]
+pub struct FloatEdge<F: Pod> {
     normal: [F; 2],
     offset: F,
 }
+
+/// Whether all are numbers.
+fn finite<F: Number>(numbers: &[F]) -> bool {
+    within(numbers, f64::MAX)
+}
+
+stored_numbers!(for<F: Number> FloatRadius { r, reciprocal } if |x| finite(&[x.r, x.reciprocal]));
+stored_numbers!(for<F: Number> FloatBarycentric { second, third, slack, reach }
+    if |x| finite(&x.second) && finite(&x.third) && finite(&x.slack) && finite(&[x.reach]));
+stored_numbers!(for<F: Number> FloatOutline { half, reach } if |x| finite(&x.half) && finite(&[x.reach]));
+stored_numbers!(for<F: Number> FloatEdge { normal, offset } if |x| finite(&x.normal) && finite(&[x.offset]));
 
 /// See [`Arithmetic::Spot`].
 #[derive(Clone, Copy, Debug, PartialEq)]

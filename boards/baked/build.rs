@@ -1,0 +1,52 @@
+//! Bakes the scene into a blob, renders it here to know what the board has to draw, and puts the
+//! memory map where the linker finds it.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use whitted::frame::Sampling;
+use whitted::math::Fixed;
+use whitted_host::bake::Baked;
+use whitted_host::document::Size;
+use whitted_host::render::{Settings, render};
+use whitted_host::{build, read};
+
+const SIZE: Size = Size { width: 96, height: 64 };
+
+fn main() {
+    println!("cargo::rerun-if-env-changed=WHITTED_SCENE");
+    let showcase = || PathBuf::from("../../host/scenes/showcase.toml");
+    let scene = env::var_os("WHITTED_SCENE").map_or_else(showcase, PathBuf::from);
+    let blob = build::blob::<Fixed>(&scene, Some(SIZE));
+    println!("cargo::rustc-env=BLOB={}", blob.display());
+    println!("cargo::rustc-env=WANTED={}", wanted(&scene));
+
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    let map = Path::new("../mps2/memory.x");
+    fs::copy(map, out.join("memory.x")).expect("the board has a memory.x");
+    println!("cargo::rerun-if-changed={}", map.display());
+    println!("cargo::rustc-link-search={}", out.display());
+    println!("cargo::rustc-link-arg-bins=--nmagic");
+    println!("cargo::rustc-link-arg-bins=-Tlink.x");
+}
+
+/// The checksum of the picture that the host renders: FNV-1a of the pixels' bytes.
+fn wanted(scene: &Path) -> u64 {
+    let document = read::read(scene).unwrap_or_else(|error| panic!("{error}"));
+    let baked = Baked::<Fixed>::new(&document).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
+    let settings = Settings {
+        size: SIZE,
+        depth: document.rules.depth.min(8),
+        sampling: Sampling::Center,
+        show: None,
+        threads: NonZeroUsize::MIN,
+    };
+    let rendered =
+        render(&baked, &settings, |_| {}).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
+    let mut picture = rendered.picture;
+    let bytes = picture.rows_mut().flatten().flat_map(|pixel| *pixel);
+    bytes.fold(0xCBF2_9CE4_8422_2325, |sum: u64, byte| {
+        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
+    })
+}

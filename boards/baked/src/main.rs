@@ -1,0 +1,62 @@
+//! Reads a blob where it lies in flash, checks it, renders it, and compares the picture with the
+//! one that the build script made on the host.
+#![no_std]
+#![no_main]
+
+use semihosting::println;
+use whitted::blob::{Blob, BlobError};
+use whitted::frame::{Output, Renderer, Rgb888, Settings};
+use whitted::math::Fixed;
+use whitted::scene::{Light, Material, MaterialSpec, Scene};
+use whitted::trace::Work;
+use whitted_demo::board;
+use whitted_demo::checksum::Checksum;
+
+/// What the build script baked.
+static BLOB: &[u8] = whitted::include_blob!(env!("BLOB"));
+/// The checksum of the host's picture.
+const WANTED: &str = env!("WANTED");
+
+const WIDTH: u16 = 96;
+const HEIGHT: u16 = 64;
+/// Room in RAM: shapes and tree stay in flash.
+const MATERIALS: usize = 64;
+const LIGHTS: usize = 8;
+
+fn draw() -> Result<u64, BlobError> {
+    let blob = Blob::<Fixed>::open(BLOB)?;
+    let mut materials = [Material::<Fixed>::new(MaterialSpec::BLACK); MATERIALS];
+    let mut lights = [Light::<Fixed>::point([0.0; 3], [0.0; 3]); LIGHTS];
+    let scene: Scene<'_, Fixed> = blob.scene(&mut materials, &mut lights)?;
+    let camera = blob.camera()?;
+    let mut work = Work::<Fixed, 8>::new();
+    let settings = Settings { depth: blob.depth().min(8), ..Settings::new(WIDTH, HEIGHT) };
+    let mut sum = Checksum::EMPTY;
+    match Renderer::new(&scene, &camera, settings, &mut work, &mut []) {
+        Ok(mut renderer) => {
+            let mut line = [Rgb888::default(); WIDTH as usize];
+            for y in 0..HEIGHT {
+                renderer.line(y, &Output::SRGB, &mut line);
+                sum.add(line.iter().flat_map(|pixel| pixel.0));
+            }
+        }
+        Err(error) => println!("error {error}"),
+    }
+    Ok(sum.value())
+}
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    match draw() {
+        Ok(sum) => {
+            let same = WANTED.parse() == Ok(sum);
+            let bytes = BLOB.len();
+            println!("result board=baked blob={bytes} checksum={sum:016x} same-as-host={same}");
+            board::exit(same)
+        }
+        Err(error) => {
+            println!("error {error}");
+            board::exit(false)
+        }
+    }
+}

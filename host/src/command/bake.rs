@@ -1,0 +1,89 @@
+//! `whitted bake`: a scene in the form that firmware takes in.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use whitted::math::Fixed;
+use whitted_host::bake::{Baked, Construct, Thrift, parts_of};
+use whitted_host::document::{Document, Size};
+use whitted_host::error::Flaw;
+use whitted_host::picture::save;
+use whitted_host::read;
+
+use super::{Failure, print, warn};
+
+#[derive(clap::Args)]
+pub(super) struct Options {
+    /// The scene
+    scene: PathBuf,
+    /// Where it goes: .bin for a blob that is read in place, .rs for Rust source [default: the
+    /// scene's name with .bin, here]
+    #[arg(short, long)]
+    out: Option<PathBuf>,
+    /// The numbers that the chip computes with
+    #[arg(long, value_enum, default_value = "fixed")]
+    arith: BakedArith,
+    /// The picture's size, in pixels [default: the scene's, or 320x240]
+    #[arg(long, value_name = "WxH", value_parser = super::size)]
+    size: Option<Size>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum BakedArith {
+    /// Fixed point, for chips without a floating-point unit
+    Fixed,
+    /// Single precision, for those with one
+    F32,
+}
+
+pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
+    let document = read::read(&options.scene)?;
+    if !quiet {
+        warn(&options.scene, &document);
+    }
+    let name = || Path::new(options.scene.file_stem().unwrap_or_default()).with_extension("bin");
+    let out = options.out.clone().unwrap_or_else(name);
+    let size = options.size.or(document.size).unwrap_or(super::render::SIZE);
+    let source = match out.extension().and_then(|ending| ending.to_str()) {
+        Some("rs") => true,
+        Some("bin") => false,
+        _ => {
+            let words = format!("{}: its name must end in .bin or .rs", out.display());
+            return Err(Failure::Input(words));
+        }
+    };
+    let file = options.scene.file_name().unwrap_or_default().to_string_lossy();
+    let (bytes, said) = match options.arith {
+        BakedArith::Fixed => bake::<Fixed>(&document, &file, size, source),
+        BakedArith::F32 => bake::<f32>(&document, &file, size, source),
+    }
+    .map_err(|flaw| flaw.of(&options.scene))?;
+    save(&out, |to| to.write_all(&bytes)).map_err(|error| Failure::Output(out.clone(), error))?;
+    if quiet {
+        return Ok(());
+    }
+    print(format_args!("{said}{}\n", out.display()))
+}
+
+/// The file, and what to say of it.
+fn bake<A: Construct>(
+    document: &Document,
+    name: &str,
+    size: Size,
+    source: bool,
+) -> Result<(Vec<u8>, String), Flaw> {
+    let baked = Baked::<A>::with(document, Thrift::Flash)?;
+    let flash = baked.blob(size)?;
+    let mut said = String::new();
+    for (what, count, bytes) in parts_of::<A>(&flash.counts) {
+        let _ = writeln!(said, "{bytes:>9} bytes  {count} {what}");
+    }
+    let shapes = baked.document().shapes.len().max(1);
+    let each = flash.bytes.len() as f64 / shapes as f64;
+    let _ = writeln!(said, "{:>9} bytes in all, {each:.1} a shape", flash.bytes.len());
+    // The source takes as much, but for materials and lights, which lie there precomputed.
+    let bytes = if source { baked.source(name, size)?.into_bytes() } else { flash.bytes };
+    Ok((bytes, said))
+}

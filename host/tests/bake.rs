@@ -1,0 +1,103 @@
+//! `whitted bake`: blobs of scenes of thousands, and what the command says.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{errors, files, said, spd, whitted};
+use whitted::blob::Blob;
+use whitted::frame::{Output, Renderer, Rgb888, Settings};
+use whitted::math::Fixed;
+use whitted::scene::{Camera, Light, Material, MaterialSpec, Scene};
+use whitted::trace::Work;
+use whitted_host::bake::{Baked, Thrift};
+use whitted_host::document::Size;
+use whitted_host::read;
+
+const SIZE: Size = Size { width: 48, height: 48 };
+
+fn render(scene: &Scene<'_, Fixed>, camera: &Camera<Fixed>) -> Vec<Rgb888> {
+    let settings = Settings { depth: 5, ..Settings::new(SIZE.width as u16, SIZE.height as u16) };
+    let mut work = Work::<Fixed, 5>::new();
+    let mut renderer = Renderer::new(scene, camera, settings, &mut work, &mut []).unwrap();
+    let mut picture = Vec::new();
+    for y in 0..SIZE.height as u16 {
+        let mut line = [Rgb888::default(); SIZE.width as usize];
+        renderer.line(y, &Output::SRGB, &mut line);
+        picture.extend(line);
+    }
+    picture
+}
+
+/// Bakes a file, reads the blob back, and compares; gives the bytes and the number of shapes.
+fn baked(file: &Path) -> (usize, usize) {
+    let document = read::read(file).unwrap_or_else(|error| panic!("{error}"));
+    let baked = Baked::<Fixed>::with(&document, Thrift::Flash).unwrap();
+    let bytes = baked.blob(SIZE).unwrap().bytes;
+    let mut aligned = vec![0u64; bytes.len() / 8];
+    bytemuck::cast_slice_mut(&mut aligned).copy_from_slice(&bytes);
+    let blob = Blob::<Fixed>::open(bytemuck::cast_slice(&aligned)).unwrap();
+    let mut materials = vec![Material::<Fixed>::new(MaterialSpec::BLACK); 1024];
+    let mut lights = [Light::<Fixed>::point([0.0; 3], [0.0; 3]); 8];
+    let scene = blob.scene(&mut materials, &mut lights).unwrap();
+    let camera = blob.camera().unwrap();
+    // The picture doesn't depend on the tree.
+    let host = Baked::<Fixed>::new(&document).unwrap();
+    let wanted = host.with_scene(|scene| render(scene, &host.camera(SIZE).unwrap())).unwrap();
+    assert!(render(&scene, &camera) == wanted);
+    (bytes.len(), document.shapes.len())
+}
+
+#[test]
+fn scenes_of_thousands_fit_and_look_as_before() {
+    let Some(spd) = spd() else { return };
+    for (name, most) in [("balls", 40.0), ("rings", 90.0), ("mount", 90.0), ("teapot_s12", 110.0)] {
+        let (bytes, shapes) = baked(&spd.join(name).with_extension("nff"));
+        let each = bytes as f64 / shapes as f64;
+        eprintln!("{name}: {bytes} bytes, {shapes} shapes, {each:.1} each");
+        assert!(each <= most, "{name}: {each}");
+        assert!(name != "balls" || bytes < 300_000);
+    }
+}
+
+const SCENE: &str = "[render]\nsize = [40, 30]\n[camera]\neye = [0, 1, -5]\nlook_at = [0, 0, 0]\n\
+                     [[light]]\nposition = [0, 5, -5]\nintensity = 9\n\
+                     [[material]]\nname = \"red\"\n\
+                     [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nrepeat = { count = 12, step = [2, 0, 0] }\n";
+
+#[test]
+fn the_command_writes_either_form_and_says_its_size() {
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("row.toml"), SCENE).unwrap();
+    let output = whitted(place.path(), &["bake", "row.toml"]);
+    assert_eq!(errors(&output), "");
+    let blob = fs::read(place.path().join("row.bin")).unwrap();
+    assert!(said(&output).contains("288 bytes  12 spheres\n"), "{}", said(&output));
+    assert!(said(&output).contains(&format!("{} bytes in all", blob.len())));
+    assert!(said(&output).ends_with("row.bin\n"));
+    let output = whitted(place.path(), &["bake", "row.toml", "--arith", "f32", "-o", "row.rs"]);
+    assert_eq!(errors(&output), "");
+    let source = fs::read_to_string(place.path().join("row.rs")).unwrap();
+    let version = env!("CARGO_PKG_VERSION");
+    assert!(source.starts_with(&format!("// row.toml, baked for f32 by whitted {version}.")));
+    assert!(source.contains("static SPHERES: [whitted::shape::Sphere<A>; 12] = ["));
+    assert!(source.contains("pub const SIZE: (u16, u16) = (40, 30);"));
+}
+
+#[test]
+fn what_cannot_be_baked_leaves_no_file() {
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("row.toml"), SCENE).unwrap();
+    fs::write(place.path().join("bad.toml"), format!("{SCENE}radius = 2\n")).unwrap();
+    for (arguments, says) in [
+        (vec!["bake", "row.toml", "-o", "row.elf"], "row.elf: its name must end in .bin or .rs"),
+        (vec!["bake", "bad.toml"], "bad.toml:15: duplicate key"),
+        (vec!["bake", "none.toml"], "none.toml: can't be read"),
+    ] {
+        let output = whitted(place.path(), &arguments);
+        assert!(errors(&output).contains(says), "{}", errors(&output));
+        assert_eq!(output.status.code(), Some(2));
+    }
+    assert_eq!(files(place.path()), ["bad.toml", "row.toml"]);
+}
