@@ -135,6 +135,8 @@ fn paint(
     if stdout().is_terminal() {
         print(format_args!("{}", preview(picture)))?;
     }
+    // A picture of something else shows no light.
+    let paths = options.show.is_none().then_some(paths);
     report(&rendered, arithmetic, paths, seconds)?;
     print(format_args!("{note}"))?;
     print(format_args!("{}\n", out.display()))
@@ -190,7 +192,7 @@ fn preview(picture: &Picture) -> String {
 fn report(
     rendered: &Rendered,
     arithmetic: &str,
-    paths: Paths,
+    paths: Option<Paths>,
     seconds: Seconds,
 ) -> Result<(), Failure> {
     let counts = &rendered.counts;
@@ -211,5 +213,5 @@ fn report(
         counts.transmission,
         counts.shadow
     ))?;
-    print(format_args!("paths {paths}\n"))
+    paths.map_or(Ok(()), |paths| print(format_args!("paths {paths}\n")))
 }
