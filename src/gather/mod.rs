@@ -40,7 +40,7 @@ pub enum Indirect<'a, A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Indirect<'_, A> {
-    /// The bits of [`uses`](crate::scene::uses) that a scene needs for it.
+    /// The bits of [`uses`] that a scene needs for it.
     pub const fn uses(&self) -> u64 {
         match self {
             Self::None => 0,
