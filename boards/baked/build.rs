@@ -39,6 +39,7 @@ fn wanted(scene: &Path) -> u64 {
         size: SIZE,
         depth: document.rules.depth.min(8),
         sampling: Sampling::Center,
+        indirect: None,
         show: None,
         threads: NonZeroUsize::MIN,
     };

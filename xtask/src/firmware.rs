@@ -9,6 +9,7 @@ use whitted_demo::job::{Job, JobError};
 use crate::machine::{Log, MACHINES, Record};
 use crate::oled;
 use crate::report::Report;
+use crate::shell::{boards, cargo, output};
 
 /// A small frame takes a second or two; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(240);
@@ -19,6 +20,7 @@ pub(crate) const TWO_CORES: f64 = 1.8;
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
+    report.check("baked: a scene baked by the build script, read in place", baked);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {
@@ -47,6 +49,13 @@ pub(crate) fn check(report: &mut Report) {
                 });
         }
     }
+}
+
+/// The example that bakes its scene when it is built: the blob that it reads in place gives the
+/// host's picture.
+fn baked() -> Result<(), String> {
+    let said = output(&mut cargo(&boards().join("baked"), ["run", "-q", "--release"]))?;
+    if said.contains("same-as-host=true") { Ok(()) } else { Err(said) }
 }
 
 /// Two cores draw the picture of one, and soon enough.

@@ -135,8 +135,6 @@ fn paint(
     if stdout().is_terminal() {
         print(format_args!("{}", preview(picture)))?;
     }
-    // A picture of something else shows no light.
-    let paths = options.show.is_none().then_some(paths);
     report(&rendered, arithmetic, paths, seconds)?;
     print(format_args!("{note}"))?;
     print(format_args!("{}\n", out.display()))
@@ -192,7 +190,7 @@ fn preview(picture: &Picture) -> String {
 fn report(
     rendered: &Rendered,
     arithmetic: &str,
-    paths: Option<Paths>,
+    paths: Paths,
     seconds: Seconds,
 ) -> Result<(), Failure> {
     let counts = &rendered.counts;
@@ -213,5 +211,5 @@ fn report(
         counts.transmission,
         counts.shadow
     ))?;
-    paths.map_or(Ok(()), |paths| print(format_args!("paths {paths}\n")))
+    print(format_args!("paths {paths}\n"))
 }
