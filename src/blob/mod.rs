@@ -7,13 +7,13 @@
 //! ```
 //! use whitted::blob::{Blob, BlobError};
 //! use whitted::math::Fixed;
-//! use whitted::scene::{Light, LightSpec, Material, MaterialSpec};
+//! use whitted::scene::{Light, Material, MaterialSpec, uses};
 //!
 //! fn picture(bytes: &[u8]) -> Result<(), BlobError> {
 //!     let blob = Blob::<Fixed>::open(bytes)?;
 //!     let mut materials = [Material::<Fixed>::new(MaterialSpec::BLACK); 8];
 //!     let mut lights = [Light::<Fixed>::point([0.0; 3], [0.0; 3]); 4];
-//!     let scene = blob.scene(&mut materials, &mut lights)?;
+//!     let scene = blob.scene::<{ uses::ALL }>(&mut materials, &mut lights)?;
 //!     let camera = blob.camera()?;
 //!     // render
 //!     Ok(())
