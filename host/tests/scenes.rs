@@ -4,7 +4,7 @@ mod common;
 
 use std::path::{Path, PathBuf};
 
-use common::{errors, files, said, whitted};
+use common::{decibels, errors, files, pixels, said, whitted};
 
 const SIZE: &str = "80x60";
 
@@ -21,22 +21,11 @@ fn names() -> Vec<String> {
 fn render(name: &str, arguments: &[&str]) -> Vec<u8> {
     let place = tempfile::tempdir().expect("a directory");
     let out = place.path().join("picture.png");
-    let out = out.to_str().expect("a plain name");
-    let all = [&["render", name, "-q", "--size", SIZE, "-o", out], arguments].concat();
+    let path = out.to_str().expect("a plain name");
+    let all = [&["render", name, "-q", "--size", SIZE, "-o", path], arguments].concat();
     let output = whitted(&scenes(), &all);
     assert!(output.status.success(), "{name}: {}", errors(&output));
-    let file = std::fs::File::open(out).expect("it was written");
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
-    let mut data = vec![0; reader.output_buffer_size().expect("it is small")];
-    reader.next_frame(&mut data).expect("a whole one");
-    data
-}
-
-/// 10·log₁₀(255²/mean squared difference).
-fn decibels(a: &[u8], b: &[u8]) -> f64 {
-    let square = |(a, b): (&u8, &u8)| f64::from(a.abs_diff(*b)).powi(2);
-    let mean = a.iter().zip(b).map(square).sum::<f64>() / a.len() as f64;
-    10.0 * (255.0 * 255.0 / mean).log10()
+    pixels(&out)
 }
 
 #[test]
