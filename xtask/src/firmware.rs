@@ -26,6 +26,7 @@ pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
     report.check("baked: a scene baked by the build script, read in place", || baked(None));
     check_balls(report);
+    crate::stm32::check(report);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {

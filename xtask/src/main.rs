@@ -15,6 +15,7 @@ mod pov;
 mod report;
 mod setup;
 mod shell;
+mod stm32;
 
 use std::process::ExitCode;
 

@@ -52,23 +52,7 @@ impl Board {
 
     /// Draws the jobs of the command line, or else [`Job::small`], one result line each.
     pub fn draw_all(&mut self) {
-        let args = semihosting::experimental::env::args::<COMMAND_LINE>().ok();
-        // The first is the firmware's path.
-        let args = args.iter().flatten().skip(1).filter_map(Result::ok);
-        let mut any = false;
-        for arg in args {
-            any = true;
-            match arg.parse() {
-                Ok(job) => self.draw(&job),
-                Err(error) => {
-                    println!("error {arg}: {error}");
-                    exit(false)
-                }
-            }
-        }
-        if !any {
-            Job::small().for_each(|job| self.draw(&job));
-        }
+        for_each_job(|job| self.draw(job));
     }
 
     /// Draws one job and prints its result.
@@ -112,6 +96,27 @@ impl Board {
     /// The instructions counted since this was last asked.
     pub fn instructions(&mut self) -> u64 {
         self.counter.take() * 1_000_000 / u64::from(self.clock_khz)
+    }
+}
+
+/// Does something with the jobs of the command line, or else with [`Job::small`].
+pub fn for_each_job(mut each: impl FnMut(&Job)) {
+    let args = semihosting::experimental::env::args::<COMMAND_LINE>().ok();
+    // The first is the firmware's path.
+    let args = args.iter().flatten().skip(1).filter_map(Result::ok);
+    let mut any = false;
+    for arg in args {
+        any = true;
+        match arg.parse() {
+            Ok(job) => each(&job),
+            Err(error) => {
+                println!("error {arg}: {error}");
+                exit(false)
+            }
+        }
+    }
+    if !any {
+        Job::small().for_each(|job| each(&job));
     }
 }
 

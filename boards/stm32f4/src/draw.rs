@@ -1,0 +1,50 @@
+//! A frame: each row is traced, then sent.
+
+use embedded_graphics::pixelcolor::Rgb565;
+use embedded_graphics::pixelcolor::raw::RawU16;
+use whitted::frame;
+use whitted::math::{Arithmetic, Fixed};
+use whitted::trace::Work;
+use whitted_demo::frame::MAX_DEPTH;
+use whitted_demo::job::{ArithName, Job, MAX_WIDTH};
+use whitted_demo::rgb565::{self, BYTES};
+use whitted_demo::scenes::{Shot, Shots, View};
+
+use crate::board::Display;
+
+/// Draws a job in the display's upper left corner, one ray a pixel.
+pub(crate) fn frame(display: &mut Display, job: &Job) {
+    let rows = Rows { display, job };
+    match job.arith {
+        ArithName::Fixed => Fixed::shot(job.scene, rows),
+        ArithName::F32 => f32::shot(job.scene, rows),
+    }
+}
+
+struct Rows<'a> {
+    display: &'a mut Display,
+    job: &'a Job,
+}
+
+impl<A: Arithmetic> View<A> for Rows<'_> {
+    type Output = ();
+
+    /// Not inlined, so that the stack it takes is its own.
+    ///
+    /// # Panics
+    /// If SPI fails, which it can't: nothing is received.
+    #[inline(never)]
+    fn view<const USES: u64>(self, shot: Shot<A, USES>) {
+        let Job { width, height, .. } = *self.job;
+        let mut work = Work::<A, MAX_DEPTH>::new();
+        let mut renderer = rgb565::renderer(&shot, width, height, &mut work);
+        let mut row = [0; MAX_WIDTH as usize * BYTES];
+        let row = row.get_mut(..usize::from(width) * BYTES).unwrap_or_default();
+        for y in 0..height {
+            renderer.band::<frame::Rgb565>(y, &shot.output, row);
+            let pixels = row.as_chunks::<BYTES>().0;
+            let colors = pixels.iter().map(|&p| Rgb565::from(RawU16::new(u16::from_be_bytes(p))));
+            self.display.set_pixels(0, y, width - 1, y, colors).ok().expect("SPI sends");
+        }
+    }
+}
