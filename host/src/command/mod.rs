@@ -36,7 +36,7 @@ enum Command {
     Render(render::Options),
     /// Read and validate a scene, and say what is in it
     Check {
-        /// The scene: .toml, .nff or .obj
+        /// The scene: .toml, .nff, .obj, .gltf or .glb
         scene: PathBuf,
     },
     /// Print the tree of rays of one pixel
