@@ -5,6 +5,7 @@ mod construct;
 mod group;
 mod light;
 mod place;
+mod precision;
 mod shapes;
 mod source;
 mod specs;
@@ -59,6 +60,9 @@ impl<A: Construct> Baked<A> {
     /// What of it the arithmetic can't hold, with its line.
     pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
+        if A::NARROW {
+            precision::check(document, &placement)?;
+        }
         let mut placed = placement.place(document);
         let bodies = placed.embody();
         let background = match placed.background {
