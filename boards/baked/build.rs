@@ -20,10 +20,12 @@ fn main() {
     let scene = env::var_os("WHITTED_SCENE").map_or_else(showcase, PathBuf::from);
     let blob = build::blob::<Fixed>(&scene, Some(SIZE));
     println!("cargo::rustc-env=BLOB={}", blob.display());
-    println!("cargo::rustc-env=WANTED={}", wanted(&scene));
+    let (checksum, rays) = wanted(&scene);
+    println!("cargo::rustc-env=WANTED={checksum}");
+    println!("cargo::rustc-env=RAYS={rays}");
 
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    let map = Path::new("../mps2/memory.x");
+    let map = Path::new("memory.x");
     fs::copy(map, out.join("memory.x")).expect("the board has a memory.x");
     println!("cargo::rerun-if-changed={}", map.display());
     println!("cargo::rustc-link-search={}", out.display());
@@ -31,8 +33,8 @@ fn main() {
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
 }
 
-/// The checksum of the picture that the host renders: FNV-1a of the pixels' bytes.
-fn wanted(scene: &Path) -> u64 {
+/// The checksum of the picture that the host renders, FNV-1a of the pixels' bytes, and its rays.
+fn wanted(scene: &Path) -> (u64, u64) {
     let document = read::read(scene).unwrap_or_else(|error| panic!("{error}"));
     let baked = Baked::<Fixed>::new(&document).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
     let settings = Settings {
@@ -47,7 +49,8 @@ fn wanted(scene: &Path) -> u64 {
         render(&baked, &settings, |_| {}).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
     let mut picture = rendered.picture;
     let bytes = picture.rows_mut().flatten().flat_map(|pixel| *pixel);
-    bytes.fold(0xCBF2_9CE4_8422_2325, |sum: u64, byte| {
+    let checksum = bytes.fold(0xCBF2_9CE4_8422_2325, |sum: u64, byte| {
         (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    })
+    });
+    (checksum, rendered.counts.rays())
 }

@@ -75,20 +75,3 @@ fn a_light_with_an_area_takes_ten_times_the_rays() {
     let times = rays("room-area.toml") / rays("room-point.toml");
     assert!((8.0..14.0).contains(&times), "{times:.2} times");
 }
-
-#[test]
-fn boards_carry_the_bathroom_as_it_is_baked() {
-    let place = tempfile::tempdir().expect("a directory");
-    for arith in ["fixed", "f32"] {
-        let out = place.path().join("scene.rs");
-        let name = out.to_str().expect("a plain name");
-        let scene = "bathroom-small.toml";
-        let all = ["bake", scene, "-q", "--arith", arith, "--size", "160x120", "-o", name];
-        let output = whitted(&scenes(), &all);
-        assert!(output.status.success(), "{}", errors(&output));
-        let carried = format!("../../boards/demo/src/scenes/bathroom_{arith}.rs");
-        let carried = std::fs::read_to_string(scenes().join(carried)).expect("it is there");
-        let now = std::fs::read_to_string(&out).expect("it was written");
-        assert!(now == carried, "bake {scene} again, --arith {arith} --size 160x120");
-    }
-}

@@ -1,5 +1,6 @@
 //! The emulated boards against the host: the same scenes, the same bits.
 
+use std::path::Path;
 use std::time::Duration;
 
 use whitted::tally::Counts;
@@ -9,7 +10,7 @@ use whitted_demo::job::{Job, JobError};
 use crate::machine::{Log, MACHINES, Record};
 use crate::oled;
 use crate::report::Report;
-use crate::shell::{boards, cargo, output};
+use crate::shell::{boards, cargo, output, root};
 
 /// A small frame takes a second or two; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(240);
@@ -17,10 +18,15 @@ const PATIENCE: Duration = Duration::from_secs(240);
 /// Two cores are to be quicker than one by this factor.
 pub(crate) const TWO_CORES: f64 = 1.8;
 
+/// A ray among SPD's 7,382 balls may cost so many times what one among 92 costs.
+const BALLS: f64 = 3.5;
+
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
-    report.check("baked: a scene baked by the build script, read in place", baked);
+    report.check("baked: a scene baked by the build script, read in place", || baked(None));
+    check_balls(report);
+    report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {
@@ -51,11 +57,64 @@ pub(crate) fn check(report: &mut Report) {
     }
 }
 
-/// The example that bakes its scene when it is built: the blob that it reads in place gives the
-/// host's picture.
-fn baked() -> Result<(), String> {
-    let said = output(&mut cargo(&boards().join("baked"), ["run", "-q", "--release"]))?;
-    if said.contains("same-as-host=true") { Ok(()) } else { Err(said) }
+/// The room's cache is filled, and its picture drawn, as on the host.
+fn room() -> Result<(), String> {
+    let said = output(&mut cargo(&boards().join("room"), ["run", "-q", "--release"]))?;
+    let of = |kind: &str| {
+        let line = said.lines().find_map(|line| line.strip_prefix(kind));
+        line.map(Record::new).ok_or_else(|| said.clone())
+    };
+    let (result, shown) = (of("result ")?, of("shown ")?);
+    let there = (result.get("checksum")?, result.number("records")?);
+    let drawn = whitted_demo::room::draw(|_| {});
+    let here = format!("{:016x}", drawn.checksum.value());
+    let (instructions, stack) = (shown.number("instructions")?, shown.number("stack")?);
+    println!("     {} records; {instructions} instructions, stack {stack} bytes", there.1);
+    if there == (&here, drawn.records as u64) {
+        Ok(())
+    } else {
+        Err(format!("{there:?}, on the host {here} and {} records", drawn.records))
+    }
+}
+
+/// The example that bakes its scene when it is built, of another scene if one is named: the blob
+/// that it reads in place gives the host's picture. Instructions a ray.
+fn baked(scene: Option<&Path>) -> Result<f64, String> {
+    let mut command = cargo(&boards().join("baked"), ["run", "-q", "--release"]);
+    match scene {
+        Some(scene) => command.env("WHITTED_SCENE", scene),
+        None => command.env_remove("WHITTED_SCENE"),
+    };
+    let said = output(&mut command)?;
+    let line = said.lines().find_map(|line| line.strip_prefix("result "));
+    let record = Record::new(line.ok_or_else(|| said.clone())?);
+    if record.get("same-as-host")? != "true" {
+        return Err(said);
+    }
+    let (instructions, rays) = (record.number("instructions")?, record.number("rays")?);
+    let (blob, stack) = (record.number("blob")?, record.number("stack")?);
+    let each = instructions as f64 / rays as f64;
+    println!("     blob of {blob} bytes, stack {stack}; {rays} rays, {each:.0} instructions a ray");
+    Ok(each)
+}
+
+/// Thousands of shapes in the flash of a Pico, and what a ray costs against tens of them.
+fn check_balls(report: &mut Report) {
+    let spd = root().join("../shared/scenes/spd");
+    let file = |name: &str| spd.join(name).canonicalize();
+    let (Ok(few), Ok(many)) = (file("balls_s2.nff"), file("balls.nff")) else {
+        println!("     SPD's scenes are not beside the repository: balls are left out");
+        return;
+    };
+    let few = report.check("baked: SPD's balls_s2, 92 shapes", || baked(Some(&few)));
+    let many = report.check("baked: SPD's balls, 7,382 shapes", || baked(Some(&many)));
+    if let (Some(few), Some(many)) = (few, many) {
+        report.check("baked: a ray among thousands costs at most 3.5 times one among tens", || {
+            let times = many / few;
+            println!("     {times:.2} times");
+            if times <= BALLS { Ok(()) } else { Err(format!("{times:.2} times")) }
+        });
+    }
 }
 
 /// Two cores draw the picture of one, and soon enough.

@@ -100,8 +100,17 @@ impl Board {
         println!("shown board={} instructions={instructions} stack={stack}", self.name);
     }
 
-    /// What the counter holds, as instructions of a nanosecond each.
-    fn instructions(&mut self) -> u64 {
+    /// Does something of the firmware's own and counts its instructions: 670 million at most, for
+    /// [`instructions`](Self::instructions) to add up.
+    pub fn counted<R>(&mut self, act: impl FnOnce() -> R) -> R {
+        self.counter.before();
+        let made = act();
+        self.counter.after();
+        made
+    }
+
+    /// The instructions counted since this was last asked.
+    pub fn instructions(&mut self) -> u64 {
         self.counter.take() * 1_000_000 / u64::from(self.clock_khz)
     }
 }

@@ -1,10 +1,11 @@
 //! Single precision.
 
+/// The bathroom, as the build script baked it.
 #[allow(dead_code, unreachable_pub, reason = "as it was baked")]
 #[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
-#[rustfmt::skip]
-#[path = "bathroom_f32.rs"]
-mod bathroom;
+mod bathroom {
+    include!(concat!(env!("OUT_DIR"), "/bathroom_f32.rs"));
+}
 #[path = "ftb.rs"]
 mod ftb;
 #[path = "limit.rs"]
