@@ -49,8 +49,10 @@ fn word<'b>(bytes: &'b [u8], what: &str) -> Result<(u32, &'b [u8]), Problem> {
     Ok((u32::from_le_bytes(*word), rest))
 }
 
-/// A chunk's kind and bytes, and what follows it.
-fn chunk(bytes: &[u8]) -> Result<([u8; 4], &[u8], &[u8]), Problem> {
+/// A chunk's kind, its bytes, and what follows it.
+type Chunk<'b> = ([u8; 4], &'b [u8], &'b [u8]);
+
+fn chunk(bytes: &[u8]) -> Result<Chunk<'_>, Problem> {
     let (length, rest) = word(bytes, "the length of a chunk")?;
     let kind = rest.split_first_chunk::<4>();
     let (kind, rest) = kind.ok_or_else(|| Problem::Ended { wanted: "a chunk's kind".into() })?;
