@@ -5,6 +5,7 @@ mod check;
 mod progress;
 mod render;
 mod trace;
+#[cfg(feature = "window")]
 mod view;
 
 use std::fmt;
@@ -42,6 +43,7 @@ enum Command {
     },
     /// Print the tree of rays of one pixel
     Trace(trace::Options),
+    #[cfg(feature = "window")]
     /// Open a window in which the picture refines, and orbit around the scene
     View(view::Options),
     /// Turn a scene into what firmware takes in, and say how much flash it takes
@@ -173,6 +175,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Render(options)) => render::run(&options, line.quiet),
         Some(Command::Check { scene }) => check::run(&scene, line.quiet),
         Some(Command::Trace(options)) => trace::run(&options),
+        #[cfg(feature = "window")]
         Some(Command::View(options)) => view::run(&options, line.quiet),
         Some(Command::Bake(options)) => bake::run(&options, line.quiet),
     };
