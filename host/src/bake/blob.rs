@@ -23,6 +23,21 @@ impl<A: Construct> Baked<A> {
     /// The scene holds what a blob can't.
     pub fn blob(&self, size: Size) -> Result<Flash, Flaw> {
         self.fits_blob()?;
+        self.flash(size)
+    }
+
+    /// What [`blob`](Self::blob) gives, without area lights, absorption and selection if there are
+    /// any: for the sizes of Rust source, which holds those too.
+    ///
+    /// # Errors
+    /// The scene holds what Rust source can't.
+    pub fn measure(&self, size: Size) -> Result<(Counts, usize), Flaw> {
+        self.fits_source()?;
+        let Flash { bytes, counts } = self.flash(size)?;
+        Ok((counts, bytes.len()))
+    }
+
+    fn flash(&self, size: Size) -> Result<Flash, Flaw> {
         let uses = self.with_scene(|scene| scene.parts().uses())?;
         let parts = self.shapes.parts()?;
         let materials: Result<Vec<_>, _> =
