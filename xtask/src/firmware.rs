@@ -32,6 +32,7 @@ pub(crate) fn check(report: &mut Report) {
     let name = "baked: area lights of every form, a medium and a choice of lights";
     report.check(name, || baked("source", Some(&lights)));
     check_balls(report);
+    report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {
@@ -59,6 +60,26 @@ pub(crate) fn check(report: &mut Report) {
                     oled::compare(&dump)
                 });
         }
+    }
+}
+
+/// The room's cache is filled, and its picture drawn, as on the host.
+fn room() -> Result<(), String> {
+    let said = output(&mut cargo(&boards().join("room"), ["run", "-q", "--release"]))?;
+    let of = |kind: &str| {
+        let line = said.lines().find_map(|line| line.strip_prefix(kind));
+        line.map(Record::new).ok_or_else(|| said.clone())
+    };
+    let (result, shown) = (of("result ")?, of("shown ")?);
+    let there = (result.get("checksum")?, result.number("records")?);
+    let drawn = whitted_demo::room::draw(|_| {});
+    let here = format!("{:016x}", drawn.checksum.value());
+    let (instructions, stack) = (shown.number("instructions")?, shown.number("stack")?);
+    println!("     {} records; {instructions} instructions, stack {stack} bytes", there.1);
+    if there == (&here, drawn.records as u64) {
+        Ok(())
+    } else {
+        Err(format!("{there:?}, on the host {here} and {} records", drawn.records))
     }
 }
 
