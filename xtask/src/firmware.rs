@@ -24,7 +24,13 @@ const BALLS: f64 = 3.5;
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
-    report.check("baked: a scene baked by the build script, read in place", || baked(None));
+    report
+        .check("baked: a scene baked by the build script, read in place", || baked("baked", None));
+    let name = "baked: the bathroom under the area light of its window";
+    report.check(name, || baked("source", None));
+    let lights = boards().join("baked/lights.toml");
+    let name = "baked: area lights of every form, a medium and a choice of lights";
+    report.check(name, || baked("source", Some(&lights)));
     check_balls(report);
     report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
@@ -78,12 +84,13 @@ fn room() -> Result<(), String> {
 }
 
 /// The example that bakes its scene when it is built, of another scene if one is named: the blob
-/// that it reads in place gives the host's picture. Instructions a ray.
-fn baked(scene: Option<&Path>) -> Result<f64, String> {
-    let mut command = cargo(&boards().join("baked"), ["run", "-q", "--release"]);
+/// that `baked` reads in place, or `source`'s Rust source, gives the host's picture. Instructions a ray.
+fn baked(program: &str, scene: Option<&Path>) -> Result<f64, String> {
+    let mut command = cargo(&boards().join("baked"), ["run", "-q", "--release", "--bin", program]);
+    let variable = if program == "source" { "WHITTED_SOURCE" } else { "WHITTED_SCENE" };
     match scene {
-        Some(scene) => command.env("WHITTED_SCENE", scene),
-        None => command.env_remove("WHITTED_SCENE"),
+        Some(scene) => command.env(variable, scene),
+        None => command.env_remove(variable),
     };
     let said = output(&mut command)?;
     let line = said.lines().find_map(|line| line.strip_prefix("result "));
@@ -92,9 +99,9 @@ fn baked(scene: Option<&Path>) -> Result<f64, String> {
         return Err(said);
     }
     let (instructions, rays) = (record.number("instructions")?, record.number("rays")?);
-    let (blob, stack) = (record.number("blob")?, record.number("stack")?);
+    let stack = record.number("stack")?;
     let each = instructions as f64 / rays as f64;
-    println!("     blob of {blob} bytes, stack {stack}; {rays} rays, {each:.0} instructions a ray");
+    println!("     stack {stack}; {rays} rays, {each:.0} instructions a ray");
     Ok(each)
 }
 
@@ -106,8 +113,8 @@ fn check_balls(report: &mut Report) {
         println!("     SPD's scenes are not beside the repository: balls are left out");
         return;
     };
-    let few = report.check("baked: SPD's balls_s2, 92 shapes", || baked(Some(&few)));
-    let many = report.check("baked: SPD's balls, 7,382 shapes", || baked(Some(&many)));
+    let few = report.check("baked: SPD's balls_s2, 92 shapes", || baked("baked", Some(&few)));
+    let many = report.check("baked: SPD's balls, 7,382 shapes", || baked("baked", Some(&many)));
     if let (Some(few), Some(many)) = (few, many) {
         report.check("baked: a ray among thousands costs at most 3.5 times one among tens", || {
             let times = many / few;

@@ -1,5 +1,6 @@
 //! From a [`Document`] to the core's scene in one of its arithmetics, in memory.
 
+mod area;
 mod blob;
 mod construct;
 mod group;
