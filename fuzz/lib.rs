@@ -29,15 +29,18 @@ pub fn survives(format: Format, bytes: &[u8]) {
 fn look<A: Construct>(baked: &Baked<A>) {
     const SIDE: u16 = 4;
     let size = Size { width: SIDE.into(), height: SIDE.into() };
-    let (Ok(scene), Ok(camera)) = (baked.scene(), baked.camera(size)) else { return };
-    let mut work = Work::<A, 4>::new();
-    let mut samples = [Sample::NONE; 0];
-    let settings = Settings { depth: 4, ..Settings::new(SIDE, SIDE) };
-    let Ok(mut renderer) = Renderer::new(&scene, &camera, settings, &mut work, &mut samples) else {
-        return;
-    };
-    let mut line = [Rgb888::default(); SIDE as usize];
-    for y in 0..SIDE {
-        renderer.line(y, &Output::SRGB, &mut line);
-    }
+    let Ok(camera) = baked.camera(size) else { return };
+    let _ = baked.with_scene(|scene| {
+        let mut work = Work::<A, 4>::new();
+        let mut samples = [Sample::NONE; 0];
+        let settings = Settings { depth: 4, ..Settings::new(SIDE, SIDE) };
+        let Ok(mut renderer) = Renderer::new(scene, &camera, settings, &mut work, &mut samples)
+        else {
+            return;
+        };
+        let mut line = [Rgb888::default(); SIDE as usize];
+        for y in 0..SIDE {
+            renderer.line(y, &Output::SRGB, &mut line);
+        }
+    });
 }

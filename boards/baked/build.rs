@@ -13,6 +13,9 @@ use whitted_host::render::{Settings, render};
 use whitted_host::{build, read};
 
 const SIZE: Size = Size { width: 96, height: 64 };
+/// The other program's scene, whose light is an area: some ten rays for each of another.
+const BATHROOM: &str = "../../host/scenes/bathroom.toml";
+const SMALL: Size = Size { width: 40, height: 30 };
 
 fn main() {
     println!("cargo::rerun-if-env-changed=WHITTED_SCENE");
@@ -20,9 +23,18 @@ fn main() {
     let scene = env::var_os("WHITTED_SCENE").map_or_else(showcase, PathBuf::from);
     let blob = build::blob::<Fixed>(&scene, Some(SIZE));
     println!("cargo::rustc-env=BLOB={}", blob.display());
-    let (checksum, rays) = wanted(&scene);
+    let (checksum, rays) = wanted(&scene, SIZE);
     println!("cargo::rustc-env=WANTED={checksum}");
     println!("cargo::rustc-env=RAYS={rays}");
+
+    println!("cargo::rerun-if-env-changed=WHITTED_SOURCE");
+    let bathroom = || PathBuf::from(BATHROOM);
+    let scene = env::var_os("WHITTED_SOURCE").map_or_else(bathroom, PathBuf::from);
+    let source = build::source::<Fixed>(&scene, Some(SMALL));
+    let (checksum, rays) = wanted(&scene, SMALL);
+    println!("cargo::rustc-env=SOURCE={}", source.display());
+    println!("cargo::rustc-env=SOURCE_WANTED={checksum}");
+    println!("cargo::rustc-env=SOURCE_RAYS={rays}");
 
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     let map = Path::new("memory.x");
@@ -34,11 +46,11 @@ fn main() {
 }
 
 /// The checksum of the picture that the host renders, FNV-1a of the pixels' bytes, and its rays.
-fn wanted(scene: &Path) -> (u64, u64) {
+fn wanted(scene: &Path, size: Size) -> (u64, u64) {
     let document = read::read(scene).unwrap_or_else(|error| panic!("{error}"));
     let baked = Baked::<Fixed>::new(&document).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
     let settings = Settings {
-        size: SIZE,
+        size,
         depth: document.rules.depth.min(8),
         sampling: Sampling::Center,
         indirect: None,

@@ -2,11 +2,13 @@
 
 mod bands;
 mod deadline;
+mod live;
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 pub use deadline::{Shown, render_until};
+pub use live::{Colors, Next, Watcher, live, shown};
 pub use whitted::frame::{Progress, Sampling};
 use whitted::frame::{Renderer, Sample};
 use whitted::scene::{Camera, Scene};

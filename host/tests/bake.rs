@@ -85,6 +85,38 @@ fn the_command_writes_either_form_and_says_its_size() {
     assert!(source.contains("pub const SIZE: (u16, u16) = (40, 30);"));
 }
 
+const LIGHTS: &str = "
+[[light]]
+type = 'disc'
+center = [0, 5, 0]
+normal = [0, -1, 0]
+radius = 1
+radiance = 3
+";
+
+#[test]
+fn what_a_blob_cannot_hold_is_named() {
+    let place = tempfile::tempdir().unwrap();
+    let indirect = "\n[indirect]\ntype = 'virtual-lights'\n";
+    for (name, more) in [("area.toml", LIGHTS), ("indirect.toml", indirect)] {
+        fs::write(place.path().join(name), format!("{SCENE}{more}")).unwrap();
+    }
+    for (arguments, says) in [
+        (["bake", "area.toml", "-o", "area.bin"], "area lights"),
+        (["bake", "indirect.toml", "-o", "indirect.bin"], "interreflection"),
+        (["bake", "indirect.toml", "-o", "indirect.rs"], "interreflection"),
+    ] {
+        let output = whitted(place.path(), &arguments);
+        assert!(errors(&output).contains(says), "{}", errors(&output));
+        assert_eq!(output.status.code(), Some(2));
+    }
+    let output = whitted(place.path(), &["bake", "area.toml", "-q", "-o", "area.rs"]);
+    assert_eq!(errors(&output), "");
+    let source = fs::read_to_string(place.path().join("area.rs")).unwrap();
+    assert!(source.contains("static AREA_LIGHTS: [whitted::scene::AreaLight<A>; 1] = ["));
+    assert_eq!(files(place.path()), ["area.rs", "area.toml", "indirect.toml"]);
+}
+
 #[test]
 fn what_cannot_be_baked_leaves_no_file() {
     let place = tempfile::tempdir().unwrap();

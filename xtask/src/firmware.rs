@@ -24,9 +24,16 @@ const BALLS: f64 = 3.5;
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
-    report.check("baked: a scene baked by the build script, read in place", || baked(None));
+    report
+        .check("baked: a scene baked by the build script, read in place", || baked("baked", None));
+    let name = "baked: the bathroom under the area light of its window";
+    report.check(name, || baked("source", None));
+    let lights = boards().join("baked/lights.toml");
+    let name = "baked: area lights of every form, a medium and a choice of lights";
+    report.check(name, || baked("source", Some(&lights)));
     check_balls(report);
     crate::stm32::check(report);
+    report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {
@@ -57,13 +64,34 @@ pub(crate) fn check(report: &mut Report) {
     }
 }
 
+/// The room's cache is filled, and its picture drawn, as on the host.
+fn room() -> Result<(), String> {
+    let said = output(&mut cargo(&boards().join("room"), ["run", "-q", "--release"]))?;
+    let of = |kind: &str| {
+        let line = said.lines().find_map(|line| line.strip_prefix(kind));
+        line.map(Record::new).ok_or_else(|| said.clone())
+    };
+    let (result, shown) = (of("result ")?, of("shown ")?);
+    let there = (result.get("checksum")?, result.number("records")?);
+    let drawn = whitted_demo::room::draw(|_| {});
+    let here = format!("{:016x}", drawn.checksum.value());
+    let (instructions, stack) = (shown.number("instructions")?, shown.number("stack")?);
+    println!("     {} records; {instructions} instructions, stack {stack} bytes", there.1);
+    if there == (&here, drawn.records as u64) {
+        Ok(())
+    } else {
+        Err(format!("{there:?}, on the host {here} and {} records", drawn.records))
+    }
+}
+
 /// The example that bakes its scene when it is built, of another scene if one is named: the blob
-/// that it reads in place gives the host's picture. Instructions a ray.
-fn baked(scene: Option<&Path>) -> Result<f64, String> {
-    let mut command = cargo(&boards().join("baked"), ["run", "-q", "--release"]);
+/// that `baked` reads in place, or `source`'s Rust source, gives the host's picture. Instructions a ray.
+fn baked(program: &str, scene: Option<&Path>) -> Result<f64, String> {
+    let mut command = cargo(&boards().join("baked"), ["run", "-q", "--release", "--bin", program]);
+    let variable = if program == "source" { "WHITTED_SOURCE" } else { "WHITTED_SCENE" };
     match scene {
-        Some(scene) => command.env("WHITTED_SCENE", scene),
-        None => command.env_remove("WHITTED_SCENE"),
+        Some(scene) => command.env(variable, scene),
+        None => command.env_remove(variable),
     };
     let said = output(&mut command)?;
     let line = said.lines().find_map(|line| line.strip_prefix("result "));
@@ -72,9 +100,9 @@ fn baked(scene: Option<&Path>) -> Result<f64, String> {
         return Err(said);
     }
     let (instructions, rays) = (record.number("instructions")?, record.number("rays")?);
-    let (blob, stack) = (record.number("blob")?, record.number("stack")?);
+    let stack = record.number("stack")?;
     let each = instructions as f64 / rays as f64;
-    println!("     blob of {blob} bytes, stack {stack}; {rays} rays, {each:.0} instructions a ray");
+    println!("     stack {stack}; {rays} rays, {each:.0} instructions a ray");
     Ok(each)
 }
 
@@ -86,8 +114,8 @@ fn check_balls(report: &mut Report) {
         println!("     SPD's scenes are not beside the repository: balls are left out");
         return;
     };
-    let few = report.check("baked: SPD's balls_s2, 92 shapes", || baked(Some(&few)));
-    let many = report.check("baked: SPD's balls, 7,382 shapes", || baked(Some(&many)));
+    let few = report.check("baked: SPD's balls_s2, 92 shapes", || baked("baked", Some(&few)));
+    let many = report.check("baked: SPD's balls, 7,382 shapes", || baked("baked", Some(&many)));
     if let (Some(few), Some(many)) = (few, many) {
         report.check("baked: a ray among thousands costs at most 3.5 times one among tens", || {
             let times = many / few;

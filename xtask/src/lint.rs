@@ -53,6 +53,7 @@ pub(crate) fn check(report: &mut Report) {
         let words = format!("clippy -q --no-default-features --features {chip}");
         step(&format!("clippy, stm32f4, {chip}"), &boards.join("stm32f4"), &words, true);
     }
+    step("clippy, room", &boards.join("room"), "clippy -q", true);
     for name in ["nopanic", "size"] {
         let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
         step(&format!("clippy, {name}"), &boards, &words, true);

@@ -9,6 +9,7 @@ pub mod frame;
 pub mod job;
 pub mod oled;
 pub mod rgb565;
+pub mod room;
 pub mod scenes;
 
 #[cfg(all(target_os = "none", feature = "semihosting"))]

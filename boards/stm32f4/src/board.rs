@@ -74,9 +74,8 @@ impl Board {
             .color_order(ColorOrder::Bgr)
             .reset_pin(port.pa2.into_push_pull_output())
             .init(&mut Wait)
-            .ok()
             .expect("SPI sends");
-        display.clear(RgbColor::BLACK).ok().expect("SPI sends");
+        display.clear(RgbColor::BLACK).expect("SPI sends");
         Self {
             display,
             #[cfg(feature = "f411")]

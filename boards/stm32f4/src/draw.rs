@@ -44,7 +44,7 @@ impl<A: Arithmetic> View<A> for Rows<'_> {
             renderer.band::<frame::Rgb565>(y, &shot.output, row);
             let pixels = row.as_chunks::<BYTES>().0;
             let colors = pixels.iter().map(|&p| Rgb565::from(RawU16::new(u16::from_be_bytes(p))));
-            self.display.set_pixels(0, y, width - 1, y, colors).ok().expect("SPI sends");
+            self.display.set_pixels(0, y, width - 1, y, colors).expect("SPI sends");
         }
     }
 }

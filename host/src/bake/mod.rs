@@ -1,5 +1,6 @@
 //! From a [`Document`] to the core's scene in one of its arithmetics, in memory.
 
+mod area;
 mod blob;
 mod construct;
 mod group;
@@ -134,7 +135,19 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The arithmetic can't hold it.
     pub fn camera(&self, size: Size) -> Result<Camera<A>, Flaw> {
-        let CameraSpec { eye, at, up, tangent } = specs::camera(&self.placed.camera, size);
+        self.placed_camera(&self.placed.camera, size)
+    }
+
+    /// Another camera in the document's coordinates, for pictures of this size.
+    ///
+    /// # Errors
+    /// The arithmetic can't hold it.
+    pub fn camera_of(&self, camera: &document::Camera, size: Size) -> Result<Camera<A>, Flaw> {
+        self.placed_camera(&self.placement.camera(camera), size)
+    }
+
+    fn placed_camera(&self, camera: &document::Camera, size: Size) -> Result<Camera<A>, Flaw> {
+        let CameraSpec { eye, at, up, tangent } = specs::camera(camera, size);
         A::new_camera(eye, at, up, tangent).map_err(|error| refused::<A>("the camera", error, None))
     }
 

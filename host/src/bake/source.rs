@@ -9,8 +9,8 @@ use std::fmt::{self, Write as _};
 use whitted::blob::BackgroundSpec;
 use whitted::scene::{LightSpec, MaterialSpec, PatternSpec, Shadow};
 
-use super::{Baked, Construct, specs};
-use crate::document::{Body, Point, Size, dot, normalized};
+use super::{Baked, Construct, area, specs};
+use crate::document::{Body, LightSelection, Point, Size, dot, normalized};
 use crate::error::{Flaw, Problem};
 
 /// The kinds of shapes: the field of `Parts`, its static, its type.
@@ -35,7 +35,7 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The scene holds what a baked form can't.
     pub fn source(&self, name: &str, size: Size) -> Result<String, Flaw> {
-        self.bakeable()?;
+        self.fits_source()?;
         let mut text = String::new();
         self.write_source(&mut text, name, size)
             .map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
@@ -69,6 +69,7 @@ impl<A: Construct> Baked<A> {
         if tree {
             writeln!(to, "    tree: Some(TREE),")?;
         }
+        self.write_lighting(to)?;
         let setting = specs::setting(&self.placed, size);
         write!(
             to,
@@ -179,13 +180,53 @@ impl<A: Construct> Baked<A> {
         Ok(true)
     }
 
+    /// The fields of `Parts` that only some scenes have: media, area lights and their choice.
+    fn write_lighting(&self, to: &mut String) -> fmt::Result {
+        if !self.absorptions.is_empty() {
+            writeln!(to, "    absorptions: &ABSORPTIONS,")?;
+        }
+        if !self.lights.areas.is_empty() {
+            writeln!(to, "    area_lights: &AREA_LIGHTS,")?;
+        }
+        if !self.lights.corners.is_empty() {
+            writeln!(to, "    light_corners: &LIGHT_CORNERS,")?;
+        }
+        let rules = &self.placed.rules;
+        if let Some(seed) = rules.light_jitter {
+            writeln!(to, "    light_jitter: Some({seed}),")?;
+        }
+        match rules.lights {
+            LightSelection::All => Ok(()),
+            LightSelection::Choose(count) => {
+                writeln!(to, "    selection: whitted::scene::Selection::Choose({count}),")
+            }
+            LightSelection::Threshold(radiance) => {
+                writeln!(to, "    selection: whitted::scene::Selection::<A>::above({radiance:?}),")
+            }
+        }
+    }
+
     fn write_rest(&self, to: &mut String, size: Size) -> fmt::Result {
-        let made = self.placed.materials.iter().filter_map(|m| specs::material(m).ok());
-        let materials: Vec<String> = made.map(|spec| material(&spec)).collect();
+        let mut absorptions = Vec::new();
+        let mut materials = Vec::new();
+        for m in &self.placed.materials {
+            let Ok(mut spec) = specs::material(m) else { continue };
+            if m.absorbs() {
+                spec.absorption = u16::try_from(absorptions.len()).ok();
+                let [front, behind] = m.absorption;
+                absorptions
+                    .push(format!("whitted::scene::Absorption::<A>::new({front:?}, {behind:?})"));
+            }
+            materials.push(material(&spec));
+        }
+        if !absorptions.is_empty() {
+            write_list(to, "ABSORPTIONS", "whitted::scene::Absorption<A>", &absorptions)?;
+        }
         write_list(to, "MATERIALS", "whitted::scene::Material<A>", &materials)?;
         let lights: Vec<String> =
             self.placed.lights.iter().filter_map(specs::light).map(|l| light(&l)).collect();
         write_list(to, "LIGHTS", "whitted::scene::Light<A>", &lights)?;
+        area::write(to, &self.placed.lights, &self.lights.areas)?;
         let setting = specs::setting(&self.placed, size);
         write!(
             to,
@@ -202,7 +243,12 @@ impl<A: Construct> Baked<A> {
 }
 
 /// A static list.
-fn write_list(to: &mut String, name: &str, kind: &str, values: &[String]) -> fmt::Result {
+pub(super) fn write_list(
+    to: &mut String,
+    name: &str,
+    kind: &str,
+    values: &[String],
+) -> fmt::Result {
     writeln!(to, "#[allow(long_running_const_eval)]\n#[rustfmt::skip]")?;
     writeln!(to, "static {name}: [{kind}; {}] = [", values.len())?;
     for value in values {
@@ -243,7 +289,7 @@ fn material(spec: &MaterialSpec) -> String {
         fresnel,
         texture: _,
         bump: _,
-        absorption: _,
+        absorption,
     } = spec;
     let shadow = match shadow {
         Shadow::Opaque => "Opaque",
@@ -262,7 +308,7 @@ fn material(spec: &MaterialSpec) -> String {
          reflection: {reflection:?}, transmission: {transmission:?}, \
          index_front: {index_front:?}, index_behind: {index_behind:?}, emission: {emission:?}, \
          shadow: whitted::scene::Shadow::{shadow}, pattern: {pattern}, \
-         fresnel: {fresnel}, ..whitted::scene::MaterialSpec::BLACK }})"
+         fresnel: {fresnel}, absorption: {absorption:?}, ..whitted::scene::MaterialSpec::BLACK }})"
     )
 }
 

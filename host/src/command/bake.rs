@@ -75,15 +75,20 @@ fn bake<A: Construct>(
     source: bool,
 ) -> Result<(Vec<u8>, String), Flaw> {
     let baked = Baked::<A>::with(document, Thrift::Flash)?;
-    let flash = baked.blob(size)?;
+    // The source takes as much, but for materials and lights, which lie there precomputed.
+    let (bytes, counts, all) = if source {
+        let (counts, all) = baked.measure(size)?;
+        (baked.source(name, size)?.into_bytes(), counts, all)
+    } else {
+        let flash = baked.blob(size)?;
+        let all = flash.bytes.len();
+        (flash.bytes, flash.counts, all)
+    };
     let mut said = String::new();
-    for (what, count, bytes) in parts_of::<A>(&flash.counts) {
+    for (what, count, bytes) in parts_of::<A>(&counts) {
         let _ = writeln!(said, "{bytes:>9} bytes  {count} {what}");
     }
-    let shapes = baked.document().shapes.len().max(1);
-    let each = flash.bytes.len() as f64 / shapes as f64;
-    let _ = writeln!(said, "{:>9} bytes in all, {each:.1} a shape", flash.bytes.len());
-    // The source takes as much, but for materials and lights, which lie there precomputed.
-    let bytes = if source { baked.source(name, size)?.into_bytes() } else { flash.bytes };
+    let each = all as f64 / baked.document().shapes.len().max(1) as f64;
+    let _ = writeln!(said, "{all:>9} bytes in all, {each:.1} a shape");
     Ok((bytes, said))
 }
