@@ -54,11 +54,12 @@ pub(crate) fn check(report: &mut Report) {
         step(&format!("clippy, stm32f4, {chip}"), &boards.join("stm32f4"), &words, true);
     }
     step("clippy, room", &boards.join("room"), "clippy -q", true);
-    // What people copy; its own workspace, and its own lock file, which must hold.
+    // What people copy: its own workspace, and its own lock file, which must hold. It shares what
+    // the boards have built.
     let template = root.join("template");
     step("format, template", &template, "fmt --all --check", false);
-    step("clippy, template", &template, "clippy -q --locked", true);
-    step("template: it links", &template, "build -q --locked", false);
+    step("clippy, template", &template, "clippy -q --locked --target-dir ../boards/target", true);
+    step("template: it links", &template, "build -q --locked --target-dir ../boards/target", false);
     for name in ["nopanic", "size"] {
         let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
         step(&format!("clippy, {name}"), &boards, &words, true);
