@@ -127,6 +127,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     type Spot: Copy;
     /// A ray at low precision, for quick rejection.
     type Coarse: Copy;
+    /// The directions in which rays through a point can meet a sphere.
+    type DirectionCone: Copy + Debug + Send + Sync;
     /// A component of a camera's view vector, not normalised.
     type Aim: Number;
     /// A ray parameter within the octree, in units of the tree's side.
@@ -143,6 +145,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     const REFINE: bool;
     /// A hit at this distance or beyond is a miss.
     const FAR: Self::Length;
+    /// The cone of all directions.
+    const EVERY_DIRECTION: Self::DirectionCone;
     /// Zero length.
     const NO_LENGTH: Self::Length;
     /// Zero component.
@@ -247,6 +251,17 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     ) -> bool {
         true
     }
+
+    /// The directions in which rays can meet the sphere of radius `r` around `way` that start at
+    /// the coordinates' origin or, `blurred`, lead past it no farther than the direction made by
+    /// [`normalize`](Self::normalize) may be wrong.
+    fn direction_cone(
+        way: &[Self::Length; 3],
+        r: &Self::Radius,
+        blurred: bool,
+    ) -> Self::DirectionCone;
+    /// Whether a direction lies in the cone: cheap, and never wrong when it says no.
+    fn in_cone(cone: &Self::DirectionCone, d: &[Self::Unit; 3]) -> bool;
 
     /// The weights of a triangle's second and third corner at the point (x, y) of its plane,
     /// both relative to its first corner and seen along the plane's dominant axis; `None`

@@ -2,6 +2,7 @@
 
 use super::area::{Point, areas};
 use super::select::selected;
+use super::sight::Sights;
 use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
@@ -25,6 +26,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     pub(super) highlights: bool,
     /// Where random numbers come from: another one for each point that is shaded.
     pub(super) key: u32,
+    /// What can be seen from the lights, if that is known.
+    pub(super) sights: Option<&'s Sights<A>>,
 }
 
 /// Adds what the point sends back along the ray of each light's direct light.
@@ -76,7 +79,8 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     }
     at.shadow.direction = direction;
     tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-    let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
+    let sight = at.sights.and_then(|sights| sights.light(number));
+    let Some(share) = visible(scene, &at.shadow, distance, number, sight, scratch, tally) else {
         tally.shadowed(number, at.depth);
         return None;
     };

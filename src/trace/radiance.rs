@@ -9,6 +9,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
+use super::sight::Sights;
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
@@ -111,7 +112,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, &mut work.scratch.walk, tally)
+        nearest(self.scene, ray, A::FAR, None, &mut work.scratch.walk, tally)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -123,7 +124,19 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow(ray, work, tally).0
+        self.follow(ray, None, work, tally).0
+    }
+
+    /// The same for a ray from the eye, and with the lights, that `sights` knows.
+    #[inline(always)]
+    pub(crate) fn seen<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        sights: &Sights<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> Rgb<A::Radiance> {
+        self.follow(ray, Some(sights), work, tally).0
     }
 
     /// The radiance that a ray which gathers irradiance finds, and how far away.
@@ -134,7 +147,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow(ray, work, tally)
+        self.follow(ray, None, work, tally)
     }
 
     #[inline(always)]
@@ -147,6 +160,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
     fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
+        sights: Option<&Sights<A>>,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
@@ -157,12 +171,15 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut waiting = 0usize;
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
+        tally.ray(path.kind, path.depth, &path.ray, &path.weight);
+        // An instance of its own for the first ray: most of the tracing is often done by then.
+        let eye = sights.map(|sights| &sights.eye);
+        let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
         loop {
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
-            tally.ray(path.kind, path.depth, &path.ray, &path.weight);
-            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
+            let more = match found {
                 None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => false,
                 None => {
                     let background =
@@ -178,20 +195,21 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     if has(USES, uses::IRRADIANCE_CACHE) && path.kind == RayKind::Ambient {
                         first = hit.distance;
                     }
-                    self.shade(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
+                    self.shade(&mut path, &hit, (key, sights), &mut sum, work, &mut waiting, tally)
                 }
             };
-            if more {
-                continue;
+            if !more {
+                if waiting == 0 {
+                    return (sum, first);
+                }
+                waiting -= 1;
+                match work.waiting.get(waiting) {
+                    Some(next) => path = *next,
+                    None => return (sum, first),
+                }
             }
-            if waiting == 0 {
-                return (sum, first);
-            }
-            waiting -= 1;
-            match work.waiting.get(waiting) {
-                Some(next) => path = *next,
-                None => return (sum, first),
-            }
+            tally.ray(path.kind, path.depth, &path.ray, &path.weight);
+            found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
         }
     }
 
@@ -203,7 +221,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
-        key: u32,
+        (key, sights): (u32, Option<&Sights<A>>),
         sum: &mut Rgb<A::Radiance>,
         work: &mut Work<A, MAX_DEPTH>,
         waiting: &mut usize,
@@ -300,6 +318,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             depth: path.depth,
             highlights: !self.gathers(),
             key,
+            sights,
         };
         direct(scene, shading, sum, &mut work.scratch, tally);
 

@@ -158,6 +158,14 @@ pub struct FixedCoarse {
     along: i32,
 }
 
+/// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least_q17`
+/// steps of the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedDirectionCone {
+    axis: [i32; 3],
+    least_q17: i32,
+}
+
 /// Positions lose this many bits in the coarse test.
 const COARSE_SHIFT: u32 = 9;
 /// What rounding can add to a coarse distance: half a step for the centre and for the origin,
@@ -186,6 +194,7 @@ impl Arithmetic for Fixed {
     type Edge = FixedEdge;
     type Spot = FixedSpot;
     type Coarse = FixedCoarse;
+    type DirectionCone = FixedDirectionCone;
     type Aim = Aim;
     type Span = i32;
     type Rotation = FixedRotation;
@@ -194,6 +203,8 @@ impl Arithmetic for Fixed {
     const NAME: &'static str = "fixed";
     const REFINE: bool = true;
     const FAR: I16F16 = I16F16::from_bits(FAR);
+    const EVERY_DIRECTION: FixedDirectionCone =
+        FixedDirectionCone { axis: [0; 3], least_q17: i32::MIN };
     const NO_LENGTH: I16F16 = I16F16::ZERO;
     const NO_UNIT: Unit = Unit::ZERO;
     const ONE_UNIT: Unit = Unit::ONE;
@@ -352,6 +363,17 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn may_hit(ray: &FixedCoarse, center: &[I16F16; 3], r: &FixedRadius, limit: I16F16) -> bool {
         round::may_hit(ray, center, r, limit)
+    }
+
+    fn direction_cone(way: &[I16F16; 3], r: &FixedRadius, blurred: bool) -> FixedDirectionCone {
+        round::direction_cone(&lengths(way), r.bits(), blurred)
+    }
+
+    #[inline(always)]
+    fn in_cone(cone: &FixedDirectionCone, d: &[Unit; 3]) -> bool {
+        // Below 2¹³ steps times 2¹⁷, and by Cauchy's inequality so is every part of the sum.
+        let p = |i: usize| cone.axis[i].wrapping_mul(d[i].to_bits());
+        p(0).wrapping_add(p(1)).wrapping_add(p(2)) >= cone.least_q17
     }
 
     #[inline(always)]

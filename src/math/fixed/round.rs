@@ -1,7 +1,10 @@
 //! Spheres and what is round: squares in the exponent of the radius.
 
-use super::kernel::{length_times_unit, shift};
-use super::{COARSE_SHIFT, FixedCoarse, FixedRadius, Unit};
+use super::Fixed;
+use super::kernel::{length_times_unit, magnitude, shift};
+use super::{COARSE_SHIFT, FixedCoarse, FixedDirectionCone, FixedRadius, Unit};
+use crate::math::Arithmetic;
+use crate::math::root::{self, sqrt_u32};
 use ::fixed::types::I16F16;
 
 impl FixedRadius {
@@ -122,4 +125,32 @@ pub(super) fn may_hit(
     }
     // beyond 2¹⁵ steps (256 units) the squares don't fit, and the three bounds must do
     r >= 1 << 15 || square <= r.wrapping_mul(r) as u32
+}
+
+/// See `Arithmetic::direction_cone`.
+///
+/// A line in direction d through the origin passes the point v at √(|v|² − (d·v)²), so it comes
+/// nearer than r where d·v > √(|v|² − r²).
+#[inline(never)]
+pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> FixedDirectionCone {
+    // Twelve bits a component.
+    let bits = magnitude(way[0]) | magnitude(way[1]) | magnitude(way[2]) | 1;
+    let (_, zeros) = root::normalize(bits);
+    let shift = 20u32.saturating_sub(zeros);
+    let axis = way.map(|x| x >> shift);
+    // The axis is rounded by less than two steps, the radius by one. Directions are wrong by 2⁻¹⁵ of
+    // the way, a fraction of a step; those that `normalize` makes by less than 2⁻¹⁴ of a way
+    // that is at most 2048 units long: ⅛ unit.
+    let blur = if blurred { (1 << 13) >> shift } else { 0 };
+    let reach = (r >> shift).wrapping_add(4).wrapping_add(blur) as u32;
+    let square = axis.iter().map(|x| x.wrapping_mul(*x) as u32).fold(0, u32::wrapping_add);
+    if reach > 1 << 13 || reach.wrapping_mul(reach) >= square {
+        return Fixed::EVERY_DIRECTION;
+    }
+    // A step for the root's rounding, another for a direction that isn't quite a unit long.
+    let least = sqrt_u32(square.wrapping_sub(reach.wrapping_mul(reach))).saturating_sub(3);
+    if least == 0 {
+        return Fixed::EVERY_DIRECTION;
+    }
+    FixedDirectionCone { axis, least_q17: (least << 17) as i32 }
 }

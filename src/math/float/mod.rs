@@ -70,6 +70,13 @@ pub struct FloatSpot<F> {
     slack: F,
 }
 
+/// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatDirectionCone<F> {
+    axis: [F; 3],
+    least: F,
+}
+
 /// A factor and its reciprocal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FloatScale<F> {
@@ -97,6 +104,7 @@ macro_rules! float {
             type Edge = FloatEdge<$f>;
             type Spot = FloatSpot<$f>;
             type Coarse = ();
+            type DirectionCone = FloatDirectionCone<$f>;
             type Aim = $f;
             type Span = $f;
             type Rotation = [[$f; 3]; 3];
@@ -105,6 +113,8 @@ macro_rules! float {
             const NAME: &'static str = stringify!($f);
             const REFINE: bool = false;
             const FAR: $f = 1e9;
+            const EVERY_DIRECTION: FloatDirectionCone<$f> =
+                FloatDirectionCone { axis: [0.0; 3], least: -1.0 };
             const NO_LENGTH: $f = 0.0;
             const NO_UNIT: $f = 0.0;
             const ONE_UNIT: $f = 1.0;
@@ -231,6 +241,29 @@ macro_rules! float {
 
             #[inline(always)]
             fn coarse(_: &[$f; 3], _: &[$f; 3]) {}
+
+            fn direction_cone(
+                way: &[$f; 3],
+                r: &FloatRadius<$f>,
+                _: bool,
+            ) -> FloatDirectionCone<$f> {
+                // A line in direction d through the origin passes the point v at
+                // √(|v|² − (d·v)²). Far more is allowed for than rounding takes, be the way past the
+                // origin a thousand times as long as that to the sphere.
+                let square = Self::project(way, way);
+                let reach = r.r * 1.001 + $sqrt(square) * (8192.0 * $eps);
+                let rest = square - reach * reach;
+                if rest > 0.0 {
+                    FloatDirectionCone { axis: *way, least: $sqrt(rest) * 0.9999 }
+                } else {
+                    Self::EVERY_DIRECTION
+                }
+            }
+
+            #[inline(always)]
+            fn in_cone(cone: &FloatDirectionCone<$f>, d: &[$f; 3]) -> bool {
+                Self::dot(&cone.axis, d) >= cone.least
+            }
 
             #[inline(always)]
             fn barycentric(
