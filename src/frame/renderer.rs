@@ -149,10 +149,24 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// Writes the pixels of row `y`, as many as the slice holds.
     #[inline(always)]
     pub fn line<P: Pixel>(&mut self, y: u16, output: &Output, pixels: &mut [P]) {
-        let rows = y..y.saturating_add(1);
+        if y >= self.settings.height {
+            return;
+        }
+        let row = self.view.row(y, 128);
         let width = self.settings.width;
-        for (pixel, (x, y, radiance)) in pixels.iter_mut().zip(self.scan(0..width, rows)) {
+        for (x, pixel) in (0..width).zip(pixels) {
+            let radiance = self.shown(&row, x, y, (0, width));
             *pixel = output.pixel::<A, P>(&radiance, x, y);
+        }
+    }
+
+    /// The pixel at (x, y), by whatever sampling: see [`sampled`](Self::sampled).
+    #[inline(always)]
+    fn shown(&mut self, row: &Row<A>, x: u16, y: u16, columns: (u16, u16)) -> Rgb<A::Radiance> {
+        if !uses::has_samplings(USES) || self.settings.sampling == Sampling::Center {
+            self.trace(row, x, 128)
+        } else {
+            self.sampled(x, y, columns)
         }
     }
 
@@ -320,12 +334,8 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
         }
         let (x, y) = (self.x, self.rows.start);
         self.x += 1;
-        let radiance =
-            if !uses::has_samplings(USES) || self.renderer.settings.sampling == Sampling::Center {
-                self.renderer.trace(&self.row, x, 128)
-            } else {
-                self.renderer.sampled(x, y, (self.columns.start, self.columns.end))
-            };
+        let columns = (self.columns.start, self.columns.end);
+        let radiance = self.renderer.shown(&self.row, x, y, columns);
         Some((x, y, radiance))
     }
 }

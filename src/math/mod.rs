@@ -327,7 +327,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn over_weight(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
     /// `middle + slope·u`, not below 0, for |slope| ≤ middle.
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
-    /// `a + b`, saturating.
+    /// `a + b`, saturating, for radiances that aren't negative.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
     /// The mean of `count` radiances that sum to `sum`.
     fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;

@@ -25,7 +25,6 @@ pub(super) struct Path<A: Arithmetic> {
     /// The product of the coefficients down the tree.
     weight: Rgb<A::Weight>,
     depth: u8,
-    kind: RayKind,
 }
 
 impl<A: Arithmetic> Path<A> {
@@ -37,8 +36,18 @@ impl<A: Arithmetic> Path<A> {
         },
         weight: [A::NO_WEIGHT; 3],
         depth: 0,
-        kind: RayKind::Primary,
     };
+
+    /// The same, of a scene that uses no more than its type says: what is always the same needn't
+    /// be carried along.
+    #[inline(always)]
+    fn tailored<const USES: u64>(mut self) -> Self {
+        self.weight = grey::<A, USES>(&self.weight);
+        if !has(USES, uses::SOLIDS) {
+            self.ray.leaving.part = 0;
+        }
+        self
+    }
 }
 
 /// From the key of a ray to that of the next: odd, so that all differ.
@@ -164,14 +173,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        let kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
-        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind };
+        let mut kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
+        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1 };
         let mut first = A::FAR;
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
-        tally.ray(path.kind, path.depth, &path.ray, &path.weight);
+        tally.ray(kind, path.depth, &path.ray, &path.weight);
         // An instance of its own for the first ray: most of the tracing is often done by then.
         let eye = sights.map(|sights| &sights.eye);
         let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
@@ -179,8 +188,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
-            let more = match found {
-                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => false,
+            let next = match found {
+                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => None,
                 None => {
                     let background =
                         self.scene.parts.background.radiance::<USES>(&path.ray.direction);
@@ -188,33 +197,35 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     let radiance = rgb(&background, &weight, A::dim);
                     tally.term::<A>(Term::Background, &radiance);
                     sum = rgb(&sum, &radiance, A::gather);
-                    false
+                    None
                 }
                 Some(hit) => {
-                    tally.hit::<A>(path.kind, hit.shape, hit.distance);
-                    if has(USES, uses::IRRADIANCE_CACHE) && path.kind == RayKind::Ambient {
+                    tally.hit::<A>(kind, hit.shape, hit.distance);
+                    if has(USES, uses::IRRADIANCE_CACHE) && kind == RayKind::Ambient {
                         first = hit.distance;
                     }
                     self.shade(&mut path, &hit, (key, sights), &mut sum, work, &mut waiting, tally)
                 }
             };
-            if !more {
-                if waiting == 0 {
-                    return (sum, first);
+            kind = match next {
+                Some(kind) => kind,
+                None if waiting == 0 => return (sum, first),
+                None => {
+                    waiting -= 1;
+                    match work.waiting.get(waiting) {
+                        Some(next) => path = next.tailored::<USES>(),
+                        None => return (sum, first),
+                    }
+                    RayKind::Transmission
                 }
-                waiting -= 1;
-                match work.waiting.get(waiting) {
-                    Some(next) => path = *next,
-                    None => return (sum, first),
-                }
-            }
-            tally.ray(path.kind, path.depth, &path.ray, &path.weight);
+            };
+            tally.ray(kind, path.depth, &path.ray, &path.weight);
             found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
         }
     }
 
-    /// Adds the terms of a hit; turns `path` into the next ray to follow and says whether there is
-    /// one. A second has to wait.
+    /// Adds the terms of a hit; turns `path` into the next ray to follow, if there is one, and says
+    /// of which kind it is. Of two, the one that passes through has to wait.
     #[inline(always)]
     #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
     fn shade<T: Tally, const MAX_DEPTH: usize>(
@@ -226,18 +237,14 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         waiting: &mut usize,
         tally: &mut T,
-    ) -> bool {
+    ) -> Option<RayKind> {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
-        let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
-            return false;
-        };
+        let place = surface_at(scene, hit.shape, ray, &meeting, &mut p)?;
         let mut surface = place.surface;
-        let Some(material) = scene.material_at(place.material, &place.local) else {
-            return false;
-        };
+        let material = scene.material_at(place.material, &place.local)?;
 
         // A textured material is one made for the point, so that nothing below need know.
         let made;
@@ -323,13 +330,13 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         direct(scene, shading, sum, &mut work.scratch, tally);
 
         if path.depth >= self.depth {
-            return false;
+            return None;
         }
         let rules = &scene.parts.rules;
         path.depth += 1;
         let mut reflected = grey::<A, USES>(&material.reflection);
         let passed = grey::<A, USES>(&material.transmission);
-        let mut passes = false;
+        let mut next = None;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
         let fresnel = has(USES, uses::FRESNEL) && material.fresnel;
         if glass || fresnel {
@@ -356,8 +363,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                             leaving: Leaving::through(hit.shape, &surface),
                         };
                         path.weight = weight;
-                        path.kind = RayKind::Transmission;
-                        passes = true;
+                        next = Some(RayKind::Transmission);
                     }
                 }
                 // Nothing gets through: the mirror ray carries both, unless the scene says not. By
@@ -380,17 +386,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             // An interpolated normal can mirror a ray into the surface.
             let outwards = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
             if largest(&weight) >= rules.cutoff && outwards {
-                if passes && let Some(place) = work.waiting.get_mut(*waiting) {
+                if next.is_some()
+                    && let Some(place) = work.waiting.get_mut(*waiting)
+                {
                     *place = *path;
                     *waiting += 1;
                 }
                 path.ray = outside;
                 path.weight = weight;
-                path.kind = RayKind::Reflection;
-                return true;
+                next = Some(RayKind::Reflection);
             }
         }
-        passes
+        next
     }
 }
 

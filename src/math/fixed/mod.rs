@@ -490,7 +490,8 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn gather(a: I16F16, b: I16F16) -> I16F16 {
-        a.saturating_add(b)
+        let sum = a.to_bits().wrapping_add(b.to_bits());
+        I16F16::from_bits(if sum < 0 { i32::MAX } else { sum })
     }
 
     #[inline(always)]
