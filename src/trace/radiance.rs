@@ -243,7 +243,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
         let place = surface_at(scene, hit.shape, ray, &meeting, &mut p)?;
-        let mut surface = place.surface;
+        let (mut surface, mut mirror) = (place.surface, place.mirror);
         let material = scene.material_at(place.material, &place.local)?;
 
         // A textured material is one made for the point, so that nothing below need know.
@@ -259,6 +259,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             && let Some(texture) = material.bump()
         {
             surface = bumped(scene, texture, surface, hit.shape, place.local, ray.direction);
+            mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         }
         if has(USES, uses::ABSORPTION)
             && let Some(absorption) = material.absorption()
@@ -286,9 +287,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             *sum = rgb(sum, &radiance, A::gather);
         }
 
-        let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         let outside = Ray {
-            origin: A::leave(&p, &surface.geometric, hit.distance),
+            origin: place.outside,
             direction: mirror,
             leaving: Leaving::back(hit.shape, &surface),
         };
