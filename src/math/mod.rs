@@ -254,12 +254,13 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
 
     /// The directions in which rays can meet the sphere of radius `r` around `way` that start at
     /// the coordinates' origin or, `blurred`, lead past it no farther than the direction made by
-    /// [`normalize`](Self::normalize) may be wrong.
+    /// [`normalize`](Self::normalize) may be wrong. `None` for all directions: near the sphere, or
+    /// in it.
     fn direction_cone(
         way: &[Self::Length; 3],
         r: &Self::Radius,
         blurred: bool,
-    ) -> Self::DirectionCone;
+    ) -> Option<Self::DirectionCone>;
     /// Whether a direction lies in the cone: cheap, and never wrong when it says no.
     fn in_cone(cone: &Self::DirectionCone, d: &[Self::Unit; 3]) -> bool;
 

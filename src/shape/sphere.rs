@@ -134,7 +134,7 @@ impl<A: Arithmetic> Convex<A> for Sphere<A> {
 
 impl<A: Arithmetic> Sphere<A> {
     #[inline(always)]
-    fn shows_inside_only<const USES: u64>(&self) -> bool {
+    pub(crate) fn shows_inside_only<const USES: u64>(&self) -> bool {
         has(USES, uses::INSIDES) && self.material.inside_only()
     }
 

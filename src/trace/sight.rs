@@ -19,11 +19,13 @@ const LIGHTS: usize = 2;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sight<A: Arithmetic> {
     pub(super) cones: [A::DirectionCone; FEW],
+    /// A bit for each sphere that the point certainly lies outside of, and whose outside shows.
+    outside: u8,
 }
 
 impl<A: Arithmetic> Sight<A> {
     /// Anything, in any direction.
-    const ANY: Self = Self { cones: [A::EVERY_DIRECTION; FEW] };
+    const ANY: Self = Self { cones: [A::EVERY_DIRECTION; FEW], outside: 0 };
 
     /// From a point: for rays that start there, or, `towards` it, for rays that end there.
     fn new<const USES: u64>(
@@ -32,12 +34,24 @@ impl<A: Arithmetic> Sight<A> {
         towards: bool,
     ) -> Self {
         let mut sight = Self::ANY;
+        let mut bit = 1;
         for (cone, sphere) in sight.cones.iter_mut().zip(scene.shapes.spheres) {
             let center = sphere.center();
             let way = if towards { sub(point, &center) } else { sub(&center, point) };
-            *cone = A::direction_cone(&way, sphere.bound(), towards);
+            if let Some(found) = A::direction_cone(&way, sphere.bound(), towards) {
+                *cone = found;
+                // One that shows its inside alone hides nothing from within.
+                sight.outside |= if sphere.shows_inside_only::<USES>() { 0 } else { bit };
+            }
+            bit <<= 1;
         }
         sight
+    }
+
+    /// Whether the shape is a sphere that hides the point from all who are within.
+    #[inline(always)]
+    pub(super) fn hides_from(&self, shape: u32) -> bool {
+        shape < FEW as u32 && self.outside >> (shape & 7) & 1 != 0
     }
 }
 

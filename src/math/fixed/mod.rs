@@ -365,7 +365,11 @@ impl Arithmetic for Fixed {
         round::may_hit(ray, center, r, limit)
     }
 
-    fn direction_cone(way: &[I16F16; 3], r: &FixedRadius, blurred: bool) -> FixedDirectionCone {
+    fn direction_cone(
+        way: &[I16F16; 3],
+        r: &FixedRadius,
+        blurred: bool,
+    ) -> Option<FixedDirectionCone> {
         round::direction_cone(&lengths(way), r.bits(), blurred)
     }
 

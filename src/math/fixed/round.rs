@@ -1,9 +1,7 @@
 //! Spheres and what is round: squares in the exponent of the radius.
 
-use super::Fixed;
 use super::kernel::{length_times_unit, magnitude, shift};
 use super::{COARSE_SHIFT, FixedCoarse, FixedDirectionCone, FixedRadius, Unit};
-use crate::math::Arithmetic;
 use crate::math::root::{self, sqrt_u32};
 use ::fixed::types::I16F16;
 
@@ -132,7 +130,7 @@ pub(super) fn may_hit(
 /// A line in direction d through the origin passes the point v at √(|v|² − (d·v)²), so it comes
 /// nearer than r where d·v > √(|v|² − r²).
 #[inline(never)]
-pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> FixedDirectionCone {
+pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> Option<FixedDirectionCone> {
     // Twelve bits a component.
     let bits = magnitude(way[0]) | magnitude(way[1]) | magnitude(way[2]) | 1;
     let (_, zeros) = root::normalize(bits);
@@ -145,12 +143,12 @@ pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> FixedDire
     let reach = (r >> shift).wrapping_add(4).wrapping_add(blur) as u32;
     let square = axis.iter().map(|x| x.wrapping_mul(*x) as u32).fold(0, u32::wrapping_add);
     if reach > 1 << 13 || reach.wrapping_mul(reach) >= square {
-        return Fixed::EVERY_DIRECTION;
+        return None;
     }
     // A step for the root's rounding, another for a direction that isn't quite a unit long.
     let least = sqrt_u32(square.wrapping_sub(reach.wrapping_mul(reach))).saturating_sub(3);
     if least == 0 {
-        return Fixed::EVERY_DIRECTION;
+        return None;
     }
-    FixedDirectionCone { axis, least_q17: (least << 17) as i32 }
+    Some(FixedDirectionCone { axis, least_q17: (least << 17) as i32 })
 }

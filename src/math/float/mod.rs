@@ -246,7 +246,7 @@ macro_rules! float {
                 way: &[$f; 3],
                 r: &FloatRadius<$f>,
                 _: bool,
-            ) -> FloatDirectionCone<$f> {
+            ) -> Option<FloatDirectionCone<$f>> {
                 // A line in direction d through the origin passes the point v at
                 // √(|v|² − (d·v)²). Far more is allowed for than rounding takes, be the way past the
                 // origin a thousand times as long as that to the sphere.
@@ -254,9 +254,9 @@ macro_rules! float {
                 let reach = r.r * 1.001 + $sqrt(square) * (8192.0 * $eps);
                 let rest = square - reach * reach;
                 if rest > 0.0 {
-                    FloatDirectionCone { axis: *way, least: $sqrt(rest) * 0.9999 }
+                    Some(FloatDirectionCone { axis: *way, least: $sqrt(rest) * 0.9999 })
                 } else {
-                    Self::EVERY_DIRECTION
+                    None
                 }
             }
 
