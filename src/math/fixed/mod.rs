@@ -149,13 +149,11 @@ struct FixedFactor {
     exponent: i8,
 }
 
-/// A ray with Q12 directions and positions in steps of 1/128.
+/// A ray with Q12 directions.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedCoarse {
     o: [i32; 3],
-    d: [i32; 3],
-    /// o·d.
-    along: i32,
+    d_q12: [i32; 3],
 }
 
 /// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least_q17`
@@ -166,7 +164,7 @@ pub struct FixedDirectionCone {
     least_q17: i32,
 }
 
-/// Positions lose this many bits in the coarse test.
+/// The way to a sphere loses this many bits in the coarse test.
 const COARSE_SHIFT: u32 = 9;
 /// What rounding can add to a coarse distance: half a step for the centre and for the origin,
 /// one for each product.
@@ -355,9 +353,8 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn coarse(o: &[I16F16; 3], d: &[Unit; 3]) -> FixedCoarse {
-        let o = |i: usize| o[i].to_bits() >> COARSE_SHIFT;
         let d = |i: usize| (d[i].to_bits() + 16) >> 5;
-        round::coarse([o(0), o(1), o(2)], [d(0), d(1), d(2)])
+        FixedCoarse { o: lengths(o), d_q12: [d(0), d(1), d(2)] }
     }
 
     #[inline(always)]

@@ -84,13 +84,6 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
-/// See `Arithmetic::coarse`.
-#[inline(always)]
-pub(super) fn coarse(o: [i32; 3], d: [i32; 3]) -> FixedCoarse {
-    let p = |i: usize| o[i].wrapping_mul(d[i]);
-    FixedCoarse { o, d, along: p(0).wrapping_add(p(1)).wrapping_add(p(2)) }
-}
-
 /// See `Arithmetic::may_hit`.
 #[inline(always)]
 pub(super) fn may_hit(
@@ -99,12 +92,11 @@ pub(super) fn may_hit(
     r: &FixedRadius,
     limit: I16F16,
 ) -> bool {
-    // (c − o)·d as c·d − o·d, whose second part is the ray's: most spheres are out after that.
-    // It may overflow on the way, which a wrapping difference doesn't mind.
-    let c = |i: usize| center[i].to_bits() >> COARSE_SHIFT;
+    // In steps of 1/128: most spheres are out after one product.
+    let c = |i: usize| center[i].to_bits().wrapping_sub(ray.o[i]) >> COARSE_SHIFT;
     let c = [c(0), c(1), c(2)];
-    let p = |i: usize| c[i].wrapping_mul(ray.d[i]);
-    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)).wrapping_sub(ray.along) >> 12;
+    let p = |i: usize| c[i].wrapping_mul(ray.d_q12[i]);
+    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 12;
     // Rounding moves each component of the direction by 2⁻¹³: a sphere that is hit, at most
     // t + r away, by less than 1.4·(t + r)/2¹², of which the radius has its part.
     let r = (r.coarse as i32).wrapping_add(t >> 11);
@@ -115,7 +107,7 @@ pub(super) fn may_hit(
     }
     let mut square = 0u32;
     for i in 0..3 {
-        let f = c[i].wrapping_sub(ray.o[i]).wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
+        let f = c[i].wrapping_sub(t.wrapping_mul(ray.d_q12[i]) >> 12);
         if f.wrapping_add(r) as u32 > reach {
             return false;
         }
