@@ -161,26 +161,27 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let Leaving { shape: left, inwards, .. } = ray.leaving;
-        let (outwards, inwards) = if inwards { (u32::MAX, left) } else { (left, u32::MAX) };
         let count = shapes.spheres.len() as u32;
+        // The sphere that the ray leaves apart from the rest, which then needn't know.
+        if inwards && let Some(sphere) = shapes.spheres.get(left as usize) {
+            best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
+        }
         let mut id = 0;
         if let Some(sight) = sight
             && are_few(scene)
         {
             for (sphere, cone) in shapes.spheres.iter().zip(&sight.cones) {
                 tally.test();
-                if id != outwards && A::in_cone(cone, &ray.direction) {
-                    let from = id == inwards;
-                    best.take(sphere.meet_likely::<USES>(ray, from, best.distance), id);
+                if id != left && A::in_cone(cone, &ray.direction) {
+                    best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
                 }
                 id += 1;
             }
         } else {
             for sphere in shapes.spheres {
                 tally.test();
-                if id != outwards {
-                    let from = id == inwards;
-                    best.take(sphere.meet::<USES>(ray, &coarse, from, best.distance), id);
+                if id != left {
+                    best.take(sphere.meet::<USES>(ray, &coarse, false, best.distance), id);
                 }
                 id += 1;
             }
