@@ -44,18 +44,6 @@ fn blocks<A: Arithmetic, const USES: u64>(
     (ray.leaving.inwards || !left) && sphere.blocks::<USES>(ray, coarse, left, limit)
 }
 
-/// The same for a ray that probably meets it.
-#[inline(always)]
-fn blocks_likely<A: Arithmetic, const USES: u64>(
-    sphere: &Sphere<A>,
-    id: u32,
-    ray: &Ray<A>,
-    limit: A::Length,
-) -> bool {
-    let left = id == ray.leaving.shape;
-    (ray.leaving.inwards || !left) && sphere.blocks_likely::<USES>(ray, left, limit)
-}
-
 impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
     /// Notes whether a shape blocks the ray, and says so.
     #[inline(always)]
@@ -168,14 +156,23 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
+        let Leaving { shape: left, inwards, .. } = ray.leaving;
+        // The sphere that the ray leaves apart from the rest, which then needn't know.
+        if inwards
+            && let Some(sphere) = shapes.spheres.get(left as usize)
+            && sphere.blocks_likely::<USES>(ray, true, limit)
+        {
+            return Some(left);
+        }
         let mut id = 0;
         if let Some(sight) = sight
             && are_few(scene)
         {
             for (sphere, cone) in shapes.spheres.iter().zip(&sight.cones) {
                 tally.test();
-                if A::in_cone(cone, &ray.direction)
-                    && blocks_likely::<A, USES>(sphere, id, ray, limit)
+                if id != left
+                    && A::in_cone(cone, &ray.direction)
+                    && sphere.blocks_likely::<USES>(ray, false, limit)
                 {
                     return Some(id);
                 }
@@ -184,7 +181,7 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         } else {
             for sphere in shapes.spheres {
                 tally.test();
-                if blocks::<A, USES>(sphere, id, ray, &coarse, limit) {
+                if id != left && sphere.blocks::<USES>(ray, &coarse, false, limit) {
                     return Some(id);
                 }
                 id += 1;
