@@ -206,6 +206,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// may be wrong. In fixed point that is a few steps and what the distance `t` adds, over which it
     /// was reached.
     fn leave(p: &[Self::Length; 3], n: &[Self::Unit; 3], t: Self::Length) -> [Self::Length; 3];
+    /// How far [`leave`](Self::leave) moves the point.
+    fn clearance(p: &[Self::Length; 3], t: Self::Length) -> Self::Length;
 
     /// The radius itself.
     fn radius(r: &Self::Radius) -> Self::Length;

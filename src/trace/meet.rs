@@ -49,7 +49,6 @@ pub(super) struct Place<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Place<A> {
-    /// In line with what makes the surface: of a plane across an axis little of this is left.
     #[inline(always)]
     fn new(
         surface: Surface<A>,
@@ -80,7 +79,8 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
         let surface = plane.surface_seen::<USES>(ray);
-        Some(Place::new(surface, plane.material(), *p, (ray, meeting, p)))
+        let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
+        Some(Place { surface, material: plane.material(), local: *p, mirror, outside })
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
         let (surface, material, local, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;

@@ -164,6 +164,16 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         has(USES, uses::IRRADIANCE_CACHE) && self.gathering
     }
 
+    /// The background's radiance in a direction, if it counts.
+    #[inline(always)]
+    fn background(&self, direction: &[A::Unit; 3]) -> Rgb<A::Radiance> {
+        if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) {
+            [A::BLACK; 3]
+        } else {
+            self.scene.parts.background.radiance::<USES>(direction)
+        }
+    }
+
     /// The radiance along a ray, and, for one that gathers, the distance to what it hits.
     #[inline]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
@@ -184,15 +194,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         // An instance of its own for the first ray: most of the tracing is often done by then.
         let eye = sights.map(|sights| &sights.eye);
         let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
+        if found.is_none() {
+            let radiance = self.background(&path.ray.direction);
+            tally.term::<A>(Term::Background, &radiance);
+            return (radiance, first);
+        }
         loop {
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
             let next = match found {
-                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => None,
                 None => {
-                    let background =
-                        self.scene.parts.background.radiance::<USES>(&path.ray.direction);
+                    let background = self.background(&path.ray.direction);
                     let weight = grey::<A, USES>(&path.weight);
                     let radiance = rgb(&background, &weight, A::dim);
                     tally.term::<A>(Term::Background, &radiance);

@@ -299,13 +299,18 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn leave(p: &[I16F16; 3], n: &[Unit; 3], t: I16F16) -> [I16F16; 3] {
-        // The roundings of a few products, a neighbour's among them; a direction is 2⁻¹⁸ wrong and
-        // a root as much, together 2⁻¹⁷ of the way, doubled.
-        let step = 8 + (t.to_bits() >> 16);
+        let step = Self::clearance(p, t).to_bits();
         let f = |p: I16F16, n: Unit| {
             I16F16::from_bits(p.to_bits().wrapping_add(n.to_bits().wrapping_mul(step) >> 17))
         };
         [f(p[0], n[0]), f(p[1], n[1]), f(p[2], n[2])]
+    }
+
+    #[inline(always)]
+    fn clearance(_: &[I16F16; 3], t: I16F16) -> I16F16 {
+        // The roundings of a few products, a neighbour's among them; a direction is 2⁻¹⁸ wrong and
+        // a root as much, together 2⁻¹⁷ of the way, doubled.
+        I16F16::from_bits(8 + (t.to_bits() >> 16))
     }
 
     #[inline(always)]

@@ -192,9 +192,14 @@ macro_rules! float {
 
             #[inline(always)]
             fn leave(p: &[$f; 3], n: &[$f; 3], t: $f) -> [$f; 3] {
+                Self::along(p, Self::clearance(p, t), n)
+            }
+
+            #[inline(always)]
+            fn clearance(p: &[$f; 3], t: $f) -> $f {
                 // Eight times the rounding of the numbers that went into the position.
                 let size = p[0].abs() + p[1].abs() + p[2].abs() + t;
-                Self::along(p, size * (8.0 * $eps), n)
+                size * (8.0 * $eps)
             }
 
             #[inline(always)]
