@@ -32,6 +32,7 @@ pub(crate) fn check(report: &mut Report) {
     let name = "baked: area lights of every form, a medium and a choice of lights";
     report.check(name, || baked("source", Some(&lights)));
     check_balls(report);
+    oled::damaged(report);
     crate::stm32::check(report);
     report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {

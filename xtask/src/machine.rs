@@ -52,6 +52,9 @@ pub(crate) struct Machine {
     pub(crate) display: bool,
 }
 
+/// The one with a display.
+pub(crate) const OLED: &Machine = &MACHINES[1];
+
 /// All of them.
 pub(crate) const MACHINES: [Machine; 8] = [
     Machine {
@@ -134,6 +137,16 @@ pub(crate) struct Log {
 }
 
 impl Log {
+    /// Whether a line is in it, word for word.
+    pub(crate) fn has(&self, line: &str) -> bool {
+        self.lines.iter().any(|said| said == line)
+    }
+
+    /// What was said, line by line.
+    pub(crate) fn text(&self) -> String {
+        self.lines.join("\n")
+    }
+
     /// The lines that begin with `word`, without it, as keys and values.
     pub(crate) fn records(&self, word: &str) -> impl Iterator<Item = Record<'_>> {
         self.lines

@@ -5,6 +5,8 @@
 
 pub mod checksum;
 pub mod deal;
+pub mod fault;
+pub mod flash;
 pub mod frame;
 pub mod job;
 pub mod oled;
