@@ -84,6 +84,11 @@ impl<const BAND: u16> Deal<BAND> {
         self.freed = band.end;
     }
 
+    /// Deals no more rows: the picture ends with those that have been given away.
+    pub fn stop(&mut self) {
+        self.rows = self.rows.min(self.next);
+    }
+
     /// Whether every row has been sent.
     #[must_use]
     pub fn is_over(&self) -> bool {
