@@ -38,6 +38,7 @@ pub(crate) fn check(report: &mut Report) {
     check_balls(report);
     oled::damaged(report);
     crate::stm32::check(report);
+    crate::stack::check(report);
     report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
@@ -56,6 +57,9 @@ pub(crate) fn check(report: &mut Report) {
                 same_bits(&log, job)
             });
         }
+        report.check(&format!("{}: the frames' stack is within its bound", machine.core), || {
+            crate::stack::frames(&log, &jobs)
+        });
         for record in log.records("shared") {
             let name = record.get("job").unwrap_or("a job");
             report.check(&format!("{}: {name}, each a share", machine.core), || shared(record));

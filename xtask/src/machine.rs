@@ -156,7 +156,7 @@ impl Log {
 }
 
 /// A line of keys and values.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Record<'a>(&'a str);
 
 impl<'a> Record<'a> {
