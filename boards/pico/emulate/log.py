@@ -51,17 +51,21 @@ def unpacked(frame):
 
 def message(words, frame):
     """A message's text: the address of its words, then its arguments."""
-    (address,), frame = struct.unpack_from("<H", frame), frame[2:]
+    address, frame = int.from_bytes(frame[:2], "little"), frame[2:]
     sizes = {"u8": 1, "u16": 2, "u32": 4, "usize": 4, "u64": 8}
 
     def argument(match):
         nonlocal frame
         kind = match.group(1)
+        if kind != "str" and kind not in sizes:
+            # A kind that is not known here: the rest can't be read.
+            frame = b""
+            return match.group(0)
         size = 4 if kind == "str" else sizes[kind]
         number, frame = int.from_bytes(frame[:size], "little"), frame[size:]
         if kind != "str":
             return str(number)
         text, frame = frame[:number], frame[number:]
-        return text.decode()
+        return text.decode(errors="replace")
 
     return re.sub(r"\{=(\w+)\}", argument, words.get(address, f"message {address}"))
