@@ -1,5 +1,4 @@
-//! STM32F411 "Black Pill": traces a scene band by band of rows, and sends each to an ILI9341 by DMA
-//! while it traces the next.
+//! STM32F411 "Black Pill": traces a scene row by row and sends each row to an ILI9341.
 //!
 //! Left to itself it goes from scene to scene, in both arithmetics, and on at a press of the KEY
 //! button. Built for an STM32F405 it draws what the emulator's command line asks for.
@@ -8,10 +7,6 @@
 
 mod board;
 mod draw;
-mod link;
-#[cfg_attr(feature = "f411", path = "dma.rs")]
-#[cfg_attr(feature = "f405", path = "blocking.rs")]
-mod sender;
 #[cfg(feature = "f411")]
 mod show;
 
@@ -29,8 +24,12 @@ fn main() -> ! {
     let mut board = board::Board::take();
     demo::for_each_job(|job| {
         let top = stack::paint();
-        draw::frame(&mut board.display, job);
+        let sent = draw::frame(&mut board.display, job);
         let (stack, memory) = (stack::used(top), stack::static_bytes());
+        if let Err(error) = sent {
+            semihosting::println!("error {job}: the frame isn't whole: {error:?}");
+            demo::exit(false)
+        }
         semihosting::println!("frame job={job} stack={stack} static={memory}");
     });
     demo::exit(true)
