@@ -134,10 +134,16 @@ radiance = 3
 fn what_a_blob_cannot_hold_is_named() {
     let place = tempfile::tempdir().unwrap();
     let indirect = "\n[indirect]\ntype = 'virtual-lights'\n";
-    for (name, more) in [("area.toml", LIGHTS), ("indirect.toml", indirect)] {
+    let solid = "\n[[solid]]\nunion = [{ sphere = { center = [0, 3, 0], radius = 1 } }, \
+                 { sphere = { center = [0, 4, 0], radius = 1 } }]\n";
+    for (name, more) in [("area.toml", LIGHTS), ("indirect.toml", indirect), ("solid.toml", solid)]
+    {
         fs::write(place.path().join(name), format!("{SCENE}{more}")).unwrap();
     }
-    for (arguments, says) in [(["bake", "indirect.toml", "-o", "indirect.bin"], "virtual lights")] {
+    for (arguments, says) in [
+        (["bake", "indirect.toml", "-o", "indirect.bin"], "virtual lights"),
+        (["bake", "solid.toml", "-o", "solid.bin"], "solids"),
+    ] {
         let output = whitted(place.path(), &arguments);
         assert!(errors(&output).contains(says), "{}", errors(&output));
         assert_eq!(output.status.code(), Some(2));
@@ -152,7 +158,10 @@ fn what_a_blob_cannot_hold_is_named() {
     let source = fs::read_to_string(place.path().join("indirect.rs")).unwrap();
     assert!(source.contains("static VIRTUAL_LIGHTS: [whitted::gather::VirtualLight<A>; 256] = ["));
     assert!(source.contains("    indirect: INDIRECT,\n"));
-    assert_eq!(files(place.path()), ["area.rs", "area.toml", "indirect.rs", "indirect.toml"]);
+    assert_eq!(
+        files(place.path()),
+        ["area.rs", "area.toml", "indirect.rs", "indirect.toml", "solid.toml"]
+    );
 }
 
 #[test]

@@ -337,6 +337,7 @@ macro_rules! arithmetic {
                 .ok()?;
             any(scene.parts());
             let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
+            let (surfaces, lamps) = ([texture; 2], [lamp; 2]);
             let content = Content {
                 shapes,
                 planes: any(&planes),
@@ -344,8 +345,8 @@ macro_rules! arithmetic {
                 materials: &specs,
                 lights: &kinds,
                 absorptions: any(&[[[0.0; 3]; 2]]),
-                textures: any(&[texture; 2]),
-                area_lights: any(&[lamp; 2]),
+                textures: any(&surfaces),
+                area_lights: any(&lamps),
                 cache: any(Some((filled.records(), 0.2))),
                 setting: *blob.setting(),
                 uses: any(7),
