@@ -9,7 +9,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
-use super::sight::Sights;
+use super::sight::{Sights, may_be_few};
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
@@ -190,20 +190,30 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut waiting = 0usize;
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
-        tally.ray(kind, path.depth, &path.ray, &path.weight);
-        // An instance of its own for the first ray: most of the tracing is often done by then.
-        let eye = sights.map(|sights| &sights.eye);
-        let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
-        if found.is_none() {
-            let radiance = self.background(&path.ray.direction);
-            tally.term::<A>(Term::Background, &radiance);
-            return (radiance, first);
+        // A search of its own for the first ray, where that is worth the code: a good part of the
+        // tracing is done by then.
+        let mut found = None;
+        if may_be_few::<USES>()
+            && let Some(sights) = sights
+        {
+            tally.ray(kind, path.depth, &path.ray, &path.weight);
+            let (scene, eye) = (self.scene, Some(&sights.eye));
+            found = nearest(scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
+            if found.is_none() {
+                let radiance = self.background(&path.ray.direction);
+                tally.term::<A>(Term::Background, &radiance);
+                return (radiance, first);
+            }
         }
         loop {
+            if found.is_none() {
+                tally.ray(kind, path.depth, &path.ray, &path.weight);
+                found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
+            }
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
-            let next = match found {
+            let next = match found.take() {
                 None => {
                     let background = self.background(&path.ray.direction);
                     let weight = grey::<A, USES>(&path.weight);
@@ -232,8 +242,6 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     RayKind::Transmission
                 }
             };
-            tally.ray(kind, path.depth, &path.ray, &path.weight);
-            found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
         }
     }
 

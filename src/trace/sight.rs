@@ -85,10 +85,17 @@ impl<A: Arithmetic> Sights<A> {
     }
 }
 
+/// Whether the spheres of a scene of this type may be few: code for that is worth having.
+#[inline(always)]
+pub(super) const fn may_be_few<const USES: u64>() -> bool {
+    !has(USES, uses::TREE) || has(USES, uses::MANY_SPHERES)
+}
+
 /// Whether all spheres have cones: they are few, and nothing but their list finds them.
 #[inline(always)]
 pub(super) fn are_few<A: Arithmetic, const USES: u64>(scene: &Scene<'_, A, USES>) -> bool {
-    !(has(USES, uses::TREE) && scene.shapes.tree.is_some())
+    may_be_few::<USES>()
+        && !(has(USES, uses::TREE) && scene.shapes.tree.is_some())
         && (!has(USES, uses::MANY_SPHERES) || scene.shapes.spheres.len() <= FEW)
 }
 
