@@ -190,28 +190,20 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut waiting = 0usize;
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
-        // A search of its own for the first ray, where that is worth the code: a good part of the
-        // tracing is done by then.
-        let mut found = None;
-        if may_be_few::<USES>() && seen {
-            tally.ray(kind, path.depth, &path.ray, &path.weight);
-            let (scene, eye) = (self.scene, Some(&work.sights.eye));
-            found = nearest(scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
-            if found.is_none() {
-                let radiance = self.background(&path.ray.direction);
-                tally.term::<A>(Term::Background, &radiance);
-                return (radiance, first);
-            }
+        tally.ray(kind, path.depth, &path.ray, &path.weight);
+        // A search of its own for the first ray: a good part of the tracing is done by then.
+        let eye = if may_be_few::<USES>() && seen { Some(&work.sights.eye) } else { None };
+        let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
+        if found.is_none() {
+            let radiance = self.background(&path.ray.direction);
+            tally.term::<A>(Term::Background, &radiance);
+            return (radiance, first);
         }
         loop {
-            if found.is_none() {
-                tally.ray(kind, path.depth, &path.ray, &path.weight);
-                found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
-            }
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
-            let next = match found.take() {
+            let next = match found {
                 None => {
                     let background = self.background(&path.ray.direction);
                     let weight = grey::<A, USES>(&path.weight);
@@ -240,6 +232,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     RayKind::Transmission
                 }
             };
+            tally.ray(kind, path.depth, &path.ray, &path.weight);
+            found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
         }
     }
 
