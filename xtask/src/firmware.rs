@@ -7,7 +7,8 @@ use whitted::tally::Counts;
 use whitted_demo::frame;
 use whitted_demo::job::{Job, JobError};
 
-use crate::machine::{Log, MACHINES, Record};
+use crate::elf::{Sizes, sizes};
+use crate::machine::{Log, MACHINES, Record, built};
 use crate::oled;
 use crate::report::Report;
 use crate::shell::{boards, cargo, output, root};
@@ -26,14 +27,18 @@ pub(crate) fn check(report: &mut Report) {
     let jobs: Vec<Job> = Job::small().collect();
     report
         .check("baked: a scene baked by the build script, read in place", || baked("baked", None));
-    let name = "baked: the bathroom under the area light of its window";
+    let name = "baked: the bathroom, its window an area light, irradiance records in flash";
     report.check(name, || baked("source", None));
     let lights = boards().join("baked/lights.toml");
     let name = "baked: area lights of every form, a medium and a choice of lights";
     report.check(name, || baked("source", Some(&lights)));
+    let surfaces = boards().join("baked/surfaces.toml");
+    let name = "baked: textures and bumps, groups, solids, virtual lights";
+    report.check(name, || baked("source", Some(&surfaces)));
     check_balls(report);
     oled::damaged(report);
     crate::stm32::check(report);
+    crate::stack::check(report);
     report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
         let name = format!("{} ({}) runs", machine.core, machine.machine);
@@ -52,6 +57,9 @@ pub(crate) fn check(report: &mut Report) {
                 same_bits(&log, job)
             });
         }
+        report.check(&format!("{}: the frames' stack is within its bound", machine.core), || {
+            crate::stack::frames(&log, &jobs)
+        });
         for record in log.records("shared") {
             let name = record.get("job").unwrap_or("a job");
             report.check(&format!("{}: {name}, each a share", machine.core), || shared(record));
@@ -88,13 +96,19 @@ fn room() -> Result<(), String> {
 /// The example that bakes its scene when it is built, of another scene if one is named: the blob
 /// that `baked` reads in place, or `source`'s Rust source, gives the host's picture. Instructions a ray.
 fn baked(program: &str, scene: Option<&Path>) -> Result<f64, String> {
-    let mut command = cargo(&boards().join("baked"), ["run", "-q", "--release", "--bin", program]);
     let variable = if program == "source" { "WHITTED_SOURCE" } else { "WHITTED_SCENE" };
-    match scene {
-        Some(scene) => command.env(variable, scene),
-        None => command.env_remove(variable),
+    let command = |arguments: &[&str]| {
+        let mut command = cargo(&boards().join("baked"), arguments);
+        match scene {
+            Some(scene) => command.env(variable, scene),
+            None => command.env_remove(variable),
+        };
+        command
     };
-    let said = output(&mut command)?;
+    let build = ["build", "-q", "--release", "--bin", program, "--message-format=json"];
+    let firmware = built(&mut command(&build), program)?;
+    let Sizes { text, constants } = sizes(&firmware)?;
+    let said = output(&mut command(&["run", "-q", "--release", "--bin", program]))?;
     let line = said.lines().find_map(|line| line.strip_prefix("result "));
     let record = Record::new(line.ok_or_else(|| said.clone())?);
     if record.get("same-as-host")? != "true" {
@@ -103,7 +117,11 @@ fn baked(program: &str, scene: Option<&Path>) -> Result<f64, String> {
     let (instructions, rays) = (record.number("instructions")?, record.number("rays")?);
     let stack = record.number("stack")?;
     let each = instructions as f64 / rays as f64;
-    println!("     stack {stack}; {rays} rays, {each:.0} instructions a ray");
+    println!(
+        "     {instructions} instructions, {rays} rays, {each:.0} instructions a ray; stack {stack}; \
+         flash {} bytes, {constants} of them constants",
+        text + constants
+    );
     Ok(each)
 }
 

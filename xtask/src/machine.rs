@@ -156,7 +156,7 @@ impl Log {
 }
 
 /// A line of keys and values.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Record<'a>(&'a str);
 
 impl<'a> Record<'a> {
@@ -194,7 +194,12 @@ pub(crate) fn build_with(
 ) -> Result<PathBuf, String> {
     let args =
         ["build", "-q", "--release", "--bin", bin, "--target", target, "--message-format=json"];
-    let messages = output(cargo(dir, args).args(more))?;
+    built(cargo(dir, args).args(more), bin)
+}
+
+/// What cargo builds, told to say it in JSON.
+pub(crate) fn built(command: &mut Command, bin: &str) -> Result<PathBuf, String> {
+    let messages = output(command)?;
     // One message a line; only the finished program's names an executable that isn't null.
     messages
         .lines()

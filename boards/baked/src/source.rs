@@ -1,5 +1,6 @@
-//! The bathroom under the area light of its window, baked to Rust source by the build script, drawn
-//! and compared with the picture that the host made.
+//! The bathroom under the area light of its window, what its surfaces send each other in irradiance
+//! records, baked to Rust source by the build script, drawn and compared with the picture that the
+//! host made.
 #![no_std]
 #![no_main]
 

@@ -17,8 +17,9 @@ use core::panic::PanicInfo;
 use semihosting::{print, println};
 
 use crate::counter::{self, Counter};
+use crate::depths;
 use crate::frame::{self, Watch};
-use crate::job::Job;
+use crate::job::{ArithName, Job};
 use crate::stack;
 
 /// Room for the command line: the firmware's path and a job for each scene.
@@ -71,6 +72,28 @@ impl Board {
         #[cfg(feature = "rays")]
         print_rays(job, checksum);
         println!();
+    }
+
+    /// Draws the frame of [`depths`] with memory for each depth, and prints a line `depth …` about
+    /// each: the bytes of `Work` (`memory`), and of stack. In `f32` too, where the core computes it.
+    pub fn depths(&mut self) {
+        /// Each arithmetic is eight copies of the tracer, which take long to build.
+        const HERE: &[ArithName] =
+            if cfg!(target_abi = "eabihf") { &ArithName::ALL } else { &[ArithName::Fixed] };
+        for &arith in HERE {
+            for depths::Depth { depth, memory, draw } in depths::all(arith) {
+                let top = stack::paint();
+                let checksum = draw();
+                let stack = stack::used(top);
+                println!(
+                    "depth board={} arith={} depth={depth} checksum={:016x} memory={memory} \
+                     stack={stack}",
+                    self.name,
+                    arith.name(),
+                    checksum.value(),
+                );
+            }
+        }
     }
 
     /// Draws on a display, then prints a line `shown …` with what that took, tracing included.

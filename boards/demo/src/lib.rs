@@ -5,6 +5,7 @@
 
 pub mod checksum;
 pub mod deal;
+pub mod depths;
 pub mod fault;
 pub mod flash;
 pub mod frame;

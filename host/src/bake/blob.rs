@@ -26,17 +26,6 @@ impl<A: Construct> Baked<A> {
         self.flash(size)
     }
 
-    /// What [`blob`](Self::blob) gives, without area lights, absorption and selection if there are
-    /// any: for the sizes of Rust source, which holds those too.
-    ///
-    /// # Errors
-    /// The scene holds what Rust source can't.
-    pub fn measure(&self, size: Size) -> Result<(Counts, usize), Flaw> {
-        self.fits_source()?;
-        let Flash { bytes, counts } = self.flash(size)?;
-        Ok((counts, bytes.len()))
-    }
-
     fn flash(&self, size: Size) -> Result<Flash, Flaw> {
         let uses = self.with_scene(|scene| scene.parts().uses())?;
         let parts = self.shapes.parts()?;
@@ -76,20 +65,6 @@ impl<A: Construct> Baked<A> {
 
     /// Whether a blob can hold all of the scene.
     fn fits_blob(&self) -> Result<(), Flaw> {
-        self.fits_source()?;
-        let without = self.with_scene(|scene| {
-            let parts = scene.parts();
-            [
-                ("area lights", parts.area_lights.is_empty()),
-                ("absorption", parts.absorptions.is_empty()),
-                ("a selection of lights", matches!(parts.selection, Selection::All)),
-            ]
-        })?;
-        refuse(&without, "a blob can't hold them; Rust source (`-o scene.rs`) can")
-    }
-
-    /// Whether Rust source, which holds more, can hold all of the scene.
-    pub(super) fn fits_source(&self) -> Result<(), Flaw> {
         let without = self.with_scene(|scene| {
             let parts = scene.parts();
             [
@@ -97,9 +72,12 @@ impl<A: Construct> Baked<A> {
                 ("solids", parts.solids.is_empty()),
                 ("textures and bumps", parts.textures.is_empty()),
                 ("interreflection", self.placed.indirect.is_none()),
+                ("area lights", parts.area_lights.is_empty()),
+                ("absorption", parts.absorptions.is_empty()),
+                ("a selection of lights", matches!(parts.selection, Selection::All)),
             ]
         })?;
-        refuse(&without, "baked scenes can't hold them; `whitted render` can")
+        refuse(&without, "a blob can't hold them; Rust source (`-o scene.rs`) can")
     }
 }
 

@@ -1,8 +1,8 @@
 //! From a [`Document`] to the core's scene in one of its arithmetics, in memory.
 
-mod area;
 mod blob;
 mod construct;
+mod glow;
 mod group;
 mod light;
 mod place;
@@ -13,6 +13,7 @@ mod specs;
 
 pub use blob::{Flash, parts_of};
 pub use construct::Construct;
+pub use glow::Glow;
 use group::Groups;
 use light::Lights;
 pub use place::Placement;

@@ -188,7 +188,10 @@ fn in_flash<A: Construct>(baked: &Baked<A>, size: Size) -> Result<(usize, String
             (flash.bytes.len(), " baked", parts.map(|(name, _, bytes)| (name, bytes)).collect())
         }
         Err(_) => {
-            let parts = need::flash(baked)?;
+            let mut parts = need::flash(baked)?;
+            if let Some((name, _, bytes)) = baked.glow(size)?.size::<A>() {
+                parts.push((name, bytes));
+            }
             let chip = if size_of::<usize>() > 4 { ", some less on a chip" } else { "" };
             (parts.iter().map(|(_, bytes)| bytes).sum(), chip, parts)
         }

@@ -9,6 +9,8 @@ mod bathroom {
 mod ftb;
 #[path = "limit.rs"]
 mod limit;
+#[path = "mirrors.rs"]
+mod mirrors;
 #[path = "raystones.rs"]
 mod raystones;
 #[path = "../../../../examples/showcase/scene.rs"]
@@ -34,6 +36,11 @@ static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
     view.view(Shot { scene: &SAMPLED, camera: &limit::CAMERA, depth: 4, output: LINEAR })
+}
+
+pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {
+    let (scene, camera) = (&mirrors::SCENE, &mirrors::CAMERA);
+    view.view(Shot { scene, camera, depth: 8, output: Output::SRGB })
 }
 
 #[inline(always)]

@@ -4,8 +4,8 @@ use std::fmt::{self, Write as _};
 
 use whitted::scene::AreaLight;
 
-use super::Construct;
-use super::source::write_list;
+use super::write_list;
+use crate::bake::Construct;
 use crate::document::{Area, Light, LightKind};
 
 /// Writes the lists of area lights, if there are any, and of the fans of those that are polygons.
