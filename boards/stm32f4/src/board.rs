@@ -30,12 +30,10 @@ const BUFFER: usize = 512;
 
 /// SPI1 with the select line.
 type Wires = ExclusiveDevice<Spi<SPI1>, Pin<'A', 4, Output>, NoDelay>;
+/// The way to the display.
+pub(crate) type Link = SpiInterface<'static, Wires, Pin<'A', 3, Output>>;
 /// The display, with the driver that knows its commands.
-pub(crate) type Display = mipidsi::Display<
-    SpiInterface<'static, Wires, Pin<'A', 3, Output>>,
-    ILI9341Rgb565,
-    Pin<'A', 2, Output>,
->;
+pub(crate) type Display = mipidsi::Display<Link, ILI9341Rgb565, Pin<'A', 2, Output>>;
 
 /// The board.
 pub(crate) struct Board {

@@ -24,8 +24,12 @@ fn main() -> ! {
     let mut board = board::Board::take();
     demo::for_each_job(|job| {
         let top = stack::paint();
-        draw::frame(&mut board.display, job);
+        let sent = draw::frame(&mut board.display, job);
         let (stack, memory) = (stack::used(top), stack::static_bytes());
+        if let Err(error) = sent {
+            semihosting::println!("error {job}: the frame isn't whole: {error:?}");
+            demo::exit(false)
+        }
         semihosting::println!("frame job={job} stack={stack} static={memory}");
     });
     demo::exit(true)

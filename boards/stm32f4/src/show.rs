@@ -32,7 +32,7 @@ pub(crate) fn run(mut board: Board) -> ! {
                 let job = Job { scene, arith, width, height, sampling: Sampling::Center };
                 let top = stack::paint();
                 let start = DWT::cycle_count();
-                draw::frame(&mut board.display, &job);
+                let sent = draw::frame(&mut board.display, &job);
                 // Right up to 42 seconds.
                 let us = DWT::cycle_count().wrapping_sub(start) / CLOCK_MHZ;
                 defmt::info!(
@@ -45,6 +45,15 @@ pub(crate) fn run(mut board: Board) -> ! {
                     stack::used(top),
                     stack::static_bytes()
                 );
+                if let Err(error) = sent {
+                    defmt::error!(
+                        "{=str}: the frame isn't whole: {}",
+                        scene.name(),
+                        defmt::Debug2Format(&error)
+                    );
+                    // The next one follows at once.
+                    continue;
+                }
                 pause(&board);
             }
         }
