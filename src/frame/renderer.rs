@@ -8,7 +8,7 @@ use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
-use crate::trace::{Sights, Terms, Tracer, Work};
+use crate::trace::{Terms, Tracer, Work};
 use core::ops::Range;
 
 /// The larger side of a picture at most.
@@ -35,7 +35,6 @@ pub struct Renderer<
 > {
     tracer: Tracer<'a, A, USES>,
     pub(super) view: View<A>,
-    sights: Sights<A>,
     pub(super) settings: Settings,
     work: &'a mut Work<A, MAX_DEPTH>,
     /// What the sampling remembers, if it does.
@@ -100,10 +99,10 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if samples.len() < needed {
             return Err(FrameError::Samples { needed });
         }
+        work.look(scene, camera.eye());
         Ok(Self {
             tracer: Tracer::new(scene, depth).with_terms(terms),
             view: View::new(camera, width, height),
-            sights: Sights::new(scene, camera.eye()),
             settings,
             work,
             samples,
@@ -196,9 +195,9 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         // As in `radiance`.
         if uses::has_signatures(USES) {
             let mut watch = Watch::new(&mut self.tally);
-            self.tracer.seen(ray, &self.sights, self.work, &mut watch)
+            self.tracer.seen(ray, self.work, &mut watch)
         } else {
-            self.tracer.seen(ray, &self.sights, self.work, &mut self.tally)
+            self.tracer.seen(ray, self.work, &mut self.tally)
         }
     }
 
@@ -224,7 +223,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let ray = self.view.ray(&row, x, right);
         self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
-        let radiance = self.tracer.seen(ray, &self.sights, self.work, &mut watch);
+        let radiance = self.tracer.seen(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)
     }
 

@@ -51,9 +51,7 @@ pub(super) struct Place<A: Arithmetic> {
 impl<A: Arithmetic> Place<A> {
     #[inline(always)]
     fn new(
-        surface: Surface<A>,
-        material: MaterialId,
-        local: [A::Length; 3],
+        Found { surface, material, local }: Found<A>,
         (ray, meeting, p): (&Ray<A>, &Meeting<A>, &[A::Length; 3]),
     ) -> Self {
         let mirror = A::reflect(&ray.direction, &surface.normal, -surface.cosine);
@@ -74,7 +72,8 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     let (parts, shapes) = (&scene.parts, &scene.shapes);
     if let Some(sphere) = shapes.spheres.get(id as usize) {
         let surface = sphere.surface(ray, meeting, p);
-        Some(Place::new(surface, sphere.material(), *p, (ray, meeting, p)))
+        let found = Found { surface, material: sphere.material(), local: *p };
+        Some(Place::new(found, (ray, meeting, p)))
     } else if has(USES, uses::PLANES)
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
@@ -82,25 +81,31 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
         let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
         Some(Place { surface, material: plane.material(), local: *p, mirror, outside })
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
-        let (surface, material, local, point) = surface_in_instance(scene, id, *ray, *meeting)?;
+        let (found, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;
-        Some(Place::new(surface, material, local, (ray, meeting, p)))
+        Some(Place::new(found, (ray, meeting, p)))
     } else {
-        let (surface, material, point) =
-            surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
-        *p = point;
-        Some(Place::new(surface, material, point, (ray, meeting, p)))
+        let found = surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
+        *p = found.local;
+        Some(Place::new(found, (ray, meeting, p)))
     }
 }
 
-/// The same in an instance: surface, material, the point in the group and in the scene.
+/// What is found by a call: the surface, its material, and the point in the space of the shape.
+struct Found<A: Arithmetic> {
+    surface: Surface<A>,
+    material: MaterialId,
+    local: [A::Length; 3],
+}
+
+/// The same in an instance, with the point in the scene.
 #[inline(never)]
 fn surface_in_instance<A: Arithmetic, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     id: u32,
     ray: Ray<A>,
     meeting: Meeting<A>,
-) -> Option<(Surface<A>, MaterialId, [A::Length; 3], [A::Length; 3])> {
+) -> Option<(Found<A>, [A::Length; 3])> {
     let mut first = scene.bounded;
     for instance in scene.parts.instances {
         let count = instance.group().count;
@@ -116,11 +121,11 @@ fn surface_in_instance<A: Arithmetic, const USES: u64>(
         let local = A::along(&ray.origin, distance, &ray.direction);
         let meeting = Meeting { distance, ..meeting };
         let shapes = &instance.group().shapes;
-        let (surface, material, local) =
+        let Found { surface, material, local } =
             surface_of_other::<A, USES>(shapes, index, *ray, meeting, local)?;
         let surface = instance.turn(surface);
         let material = instance.material().unwrap_or(material);
-        return Some((surface, material, local, instance.outwards(&local)));
+        return Some((Found { surface, material, local }, instance.outwards(&local)));
     }
     None
 }
@@ -133,9 +138,9 @@ fn surface_of_other<A: Arithmetic, const USES: u64>(
     ray: Ray<A>,
     meeting: Meeting<A>,
     mut p: [A::Length; 3],
-) -> Option<(Surface<A>, MaterialId, [A::Length; 3])> {
+) -> Option<Found<A>> {
     with_shape!(USES, shapes, id, shape => {
         let surface = shape.surface(&ray, &meeting, &mut p);
-        Some((surface, shape.material_at(&meeting), p))
+        Some(Found { surface, material: shape.material_at(&meeting), local: p })
     }, None)
 }

@@ -18,6 +18,6 @@ mod work;
 pub(crate) use area::point_of_light;
 pub use nearest::Hit;
 pub use radiance::Tracer;
-pub(crate) use sight::{FEW, Sights};
+pub(crate) use sight::FEW;
 pub use terms::{Paths, Terms};
 pub use work::Work;

@@ -9,7 +9,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
-use super::sight::Sights;
+use super::sight::may_be_few;
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
@@ -133,19 +133,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow(ray, None, work, tally).0
+        self.follow(ray, false, work, tally).0
     }
 
-    /// The same for a ray from the eye, and with the lights, that `sights` knows.
+    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene.
     #[inline(always)]
     pub(crate) fn seen<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
-        sights: &Sights<A>,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow(ray, Some(sights), work, tally).0
+        self.follow(ray, true, work, tally).0
     }
 
     /// The radiance that a ray which gathers irradiance finds, and how far away.
@@ -156,7 +155,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow(ray, None, work, tally)
+        self.follow(ray, false, work, tally)
     }
 
     #[inline(always)]
@@ -174,12 +173,13 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         }
     }
 
-    /// The radiance along a ray, and, for one that gathers, the distance to what it hits.
+    /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
+    /// a ray from the eye that `work` has looked from.
     #[inline]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
-        sights: Option<&Sights<A>>,
+        seen: bool,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
@@ -191,8 +191,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
         tally.ray(kind, path.depth, &path.ray, &path.weight);
-        // An instance of its own for the first ray: most of the tracing is often done by then.
-        let eye = sights.map(|sights| &sights.eye);
+        // A search of its own for the first ray: a good part of the tracing is done by then.
+        let eye = if may_be_few::<USES>() && seen { Some(&work.sights.eye) } else { None };
         let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
         if found.is_none() {
             let radiance = self.background(&path.ray.direction);
@@ -217,7 +217,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                     if has(USES, uses::IRRADIANCE_CACHE) && kind == RayKind::Ambient {
                         first = hit.distance;
                     }
-                    self.shade(&mut path, &hit, (key, sights), &mut sum, work, &mut waiting, tally)
+                    self.shade(&mut path, &hit, (key, seen), &mut sum, work, &mut waiting, tally)
                 }
             };
             kind = match next {
@@ -245,7 +245,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
-        (key, sights): (u32, Option<&Sights<A>>),
+        (key, seen): (u32, bool),
         sum: &mut Rgb<A::Radiance>,
         work: &mut Work<A, MAX_DEPTH>,
         waiting: &mut usize,
@@ -338,7 +338,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             depth: path.depth,
             highlights: !self.gathers(),
             key,
-            sights,
+            sights: seen.then_some(&work.sights),
         };
         direct(scene, shading, sum, &mut work.scratch, tally);
 

@@ -27,25 +27,25 @@ impl<A: Arithmetic> Sight<A> {
     /// Anything, in any direction.
     const ANY: Self = Self { cones: [A::EVERY_DIRECTION; FEW], outside: 0 };
 
-    /// From a point: for rays that start there, or, `towards` it, for rays that end there.
-    fn new<const USES: u64>(
+    /// Looks from a point: for rays that start there, or, `towards` it, for rays that end there.
+    fn look<const USES: u64>(
+        &mut self,
         scene: &Scene<'_, A, USES>,
         point: &[A::Length; 3],
         towards: bool,
-    ) -> Self {
-        let mut sight = Self::ANY;
+    ) {
+        *self = Self::ANY;
         let mut bit = 1;
-        for (cone, sphere) in sight.cones.iter_mut().zip(scene.shapes.spheres) {
+        for (cone, sphere) in self.cones.iter_mut().zip(scene.shapes.spheres) {
             let center = sphere.center();
             let way = if towards { sub(point, &center) } else { sub(&center, point) };
             if let Some(found) = A::direction_cone(&way, sphere.bound(), towards) {
                 *cone = found;
                 // One that shows its inside alone hides nothing from within.
-                sight.outside |= if sphere.shows_inside_only::<USES>() { 0 } else { bit };
+                self.outside |= if sphere.shows_inside_only::<USES>() { 0 } else { bit };
             }
             bit <<= 1;
         }
-        sight
     }
 
     /// Whether the shape is a sphere that hides the point from all who are within.
@@ -63,19 +63,28 @@ pub(crate) struct Sights<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Sights<A> {
-    /// From an eye and the scene's lights.
-    pub(crate) fn new<const USES: u64>(scene: &Scene<'_, A, USES>, eye: &[A::Length; 3]) -> Self {
-        let mut sights = Self { eye: Sight::ANY, lights: [Sight::ANY; LIGHTS] };
+    /// Of no scene.
+    pub(super) const NONE: Self = Self { eye: Sight::ANY, lights: [Sight::ANY; LIGHTS] };
+
+    /// Looks from an eye and from the scene's lights.
+    pub(super) fn look<const USES: u64>(
+        &mut self,
+        scene: &Scene<'_, A, USES>,
+        eye: &[A::Length; 3],
+    ) {
         if !are_few(scene) {
-            return sights;
+            return;
         }
-        sights.eye = Sight::new(scene, eye, false);
-        for (sight, light) in sights.lights.iter_mut().zip(scene.parts.lights) {
-            if let Source::Point { position } | Source::Spot { position, .. } = &light.source {
-                *sight = Sight::new(scene, position, true);
+        self.eye.look(scene, eye, false);
+        let mut lights = scene.parts.lights.iter();
+        for sight in &mut self.lights {
+            match lights.next().map(|light| &light.source) {
+                Some(Source::Point { position } | Source::Spot { position, .. }) => {
+                    sight.look(scene, position, true);
+                }
+                _ => *sight = Sight::ANY,
             }
         }
-        sights
     }
 
     /// What can be seen from a light, if that is remembered.
@@ -85,10 +94,17 @@ impl<A: Arithmetic> Sights<A> {
     }
 }
 
+/// Whether the spheres of a scene of this type may be few: code for that is worth having.
+#[inline(always)]
+pub(super) const fn may_be_few<const USES: u64>() -> bool {
+    !has(USES, uses::TREE) || has(USES, uses::MANY_SPHERES)
+}
+
 /// Whether all spheres have cones: they are few, and nothing but their list finds them.
 #[inline(always)]
 pub(super) fn are_few<A: Arithmetic, const USES: u64>(scene: &Scene<'_, A, USES>) -> bool {
-    !(has(USES, uses::TREE) && scene.shapes.tree.is_some())
+    may_be_few::<USES>()
+        && !(has(USES, uses::TREE) && scene.shapes.tree.is_some())
         && (!has(USES, uses::MANY_SPHERES) || scene.shapes.spheres.len() <= FEW)
 }
 

@@ -53,6 +53,13 @@ pub(crate) fn check(report: &mut Report) {
         let words = format!("clippy -q --no-default-features --features {chip}");
         step(&format!("clippy, stm32f4, {chip}"), &boards.join("stm32f4"), &words, true);
     }
+    let bands = "clippy -q --package whitted-bands --all-targets";
+    step("clippy, bands", &boards, bands, true);
+    for board in ["pico-async", "microbit-v2"] {
+        step(&format!("clippy, {board}"), &boards.join(board), "clippy -q", true);
+    }
+    // It can't be run here: it is to link at least.
+    step("microbit-v2: it links", &boards.join("microbit-v2"), "build -q --release", false);
     step("clippy, room", &boards.join("room"), "clippy -q", true);
     // What people copy: its own workspace, and its own lock file, which must hold. It shares what
     // the boards have built.
@@ -72,6 +79,7 @@ pub(crate) fn check(report: &mut Report) {
 pub(crate) fn host_tests(report: &mut Report) {
     tests(report, "host tests", &root(), &["test", "--workspace", "--no-fail-fast"]);
     tests(report, "tests of demo", &boards(), &["test", "--package", "whitted-demo"]);
+    tests(report, "tests of bands", &boards(), &["test", "--package", "whitted-bands"]);
 }
 
 fn tests(report: &mut Report, name: &str, dir: &Path, args: &[&str]) {

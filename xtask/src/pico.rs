@@ -157,6 +157,7 @@ pub(crate) fn check(report: &mut Report) {
         }
     }
     report.check(&format!("Pico (rp2040-emu): {job} on both cores"), || both_cores(&job));
+    report.check(&format!("Pico on embassy (rp2040py): {job}"), || on_embassy(job));
     // Of the first display; all or none.
     if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
@@ -167,6 +168,15 @@ pub(crate) fn check(report: &mut Report) {
             if more <= SENDING { Ok(()) } else { Err(line) }
         });
     }
+}
+
+/// The image on embassy, on the same display: the same bits. Its cycles stand beside the other's.
+fn on_embassy(job: Job) -> Result<(), String> {
+    let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
+    let order = Order { display: &DISPLAYS[0], job, way: WAYS[0], stick: None };
+    let frame = emulate(&image, &order)?;
+    println!("     {} cycles", frame.cycles);
+    compare(&order, &frame)
 }
 
 /// SPI stands still once: among the commands that open the window, and among a band's pixels. The

@@ -7,7 +7,7 @@ use whitted::tally::{Counts, Tally};
 use whitted::trace::Work;
 
 use crate::checksum::Checksum;
-use crate::job::{ArithName, Job, MAX_SAMPLES, MAX_WIDTH};
+use crate::job::{ArithName, Job, MAX_SAMPLES, MAX_WIDTH, sampled};
 use crate::scenes::{Shot, Shots, View};
 
 /// The depth that there is memory for.
@@ -43,9 +43,11 @@ fn run<T: Tally + Copy + Default>(
     let frame = Frame { job, watch, show, tally: T::default() };
     match (job.arith, job.sampling) {
         (ArithName::Fixed, Sampling::Center) => Fixed::shot(job.scene, frame),
-        (ArithName::F32, Sampling::Center) => f32::shot(job.scene, frame),
         (ArithName::Fixed, _) => Fixed::sampled(frame),
-        (ArithName::F32, _) => f32::sampled(frame),
+        (ArithName::F32, sampling) if sampling != Sampling::Center && sampled(ArithName::F32) => {
+            f32::sampled(frame)
+        }
+        (ArithName::F32, _) => f32::shot(job.scene, frame),
     }
 }
 

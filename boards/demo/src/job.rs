@@ -146,7 +146,10 @@ impl fmt::Display for JobError {
         match self {
             Self::Form => f.write_str("a job is written scene:arithmetic:WIDTHxHEIGHT"),
             Self::Scene => f.write_str("scenes are showcase, limit, raystones, ftb and bathroom"),
-            Self::Arithmetic => f.write_str("arithmetics are fixed and f32"),
+            Self::Arithmetic => f.write_str(
+                "arithmetics are fixed and f32, \
+                 this without bathroom and samplings where it is computed in software",
+            ),
             Self::Size => write!(
                 f,
                 "sizes go from 1x1 to {MAX_WIDTH}x{MAX_HEIGHT}, as far as {MAX_SAMPLES} samples do"
@@ -160,11 +163,18 @@ impl fmt::Display for JobError {
 
 impl core::error::Error for JobError {}
 
-/// Whether a scene is there in an arithmetic: the bathroom isn't for Arm cores that would compute
-/// `f32` in software, whose flash it would not fit.
+/// Whether `f32` is computed in software, on an Arm core.
+const SOFT: bool = cfg!(all(target_arch = "arm", target_abi = "eabi"));
+
+/// Whether a scene is there in an arithmetic: the bathroom isn't where `f32` is computed in
+/// software, since the smallest flash would not hold it.
 const fn carried(scene: SceneName, arith: ArithName) -> bool {
-    let soft = cfg!(all(target_arch = "arm", target_abi = "eabi"));
-    !(soft && matches!((scene, arith), (SceneName::Bathroom, ArithName::F32)))
+    !(SOFT && matches!((scene, arith), (SceneName::Bathroom, ArithName::F32)))
+}
+
+/// Whether the samplings are there in an arithmetic: again, not where `f32` is computed in software.
+pub(crate) const fn sampled(arith: ArithName) -> bool {
+    !(SOFT && matches!(arith, ArithName::F32))
 }
 
 impl FromStr for Job {
@@ -191,6 +201,7 @@ impl FromStr for Job {
         let (width, height) = (side(width, MAX_WIDTH)?, side(height, MAX_HEIGHT)?);
         let sampling = match sampling {
             None => Sampling::Center,
+            Some(_) if !sampled(arith) => return Err(JobError::Arithmetic),
             Some(name) => SAMPLINGS
                 .into_iter()
                 .find_map(|(known, s)| (known == name && scene == SceneName::Limit).then_some(s))
