@@ -157,6 +157,8 @@ fn jobs(machine: &Machine) -> Vec<Job> {
         (SceneName::Limit, 240, 240),
         (SceneName::Raystones, 120, 60),
         (SceneName::Ftb, 160, 120),
+        (SceneName::Gfxcat, 320, 240),
+        (SceneName::Spheres64, 120, 120),
         (SceneName::Bathroom, 160, 120),
     ];
     let job = |(scene, width, height), arith| {
@@ -166,7 +168,7 @@ fn jobs(machine: &Machine) -> Vec<Job> {
     };
     let all = sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith)));
     // Cores without a floating-point unit have no flash for that.
-    let soft = |job: &Job| job.scene == SceneName::Bathroom && job.arith == ArithName::F32;
+    let soft = |job: &Job| job.scene.is_soft_in_fixed_alone() && job.arith == ArithName::F32;
     let mut jobs: Vec<Job> = all.filter(|job| machine.float || !soft(job)).collect();
     // The samplings, where they matter: the smallest core, and one with a floating-point unit.
     let arith = if machine.float { ArithName::F32 } else { ArithName::Fixed };

@@ -1,11 +1,14 @@
 //! The emulated boards against the host: the same scenes, the same bits.
 
+use std::path::Path;
 use std::time::Duration;
 
 use whitted::tally::Counts;
 use whitted_demo::frame;
 use whitted_demo::job::{Job, JobError};
+use whitted_demo::rebuild::{SHAPES, rebuild};
 
+use crate::elf;
 use crate::machine::{Log, MACHINES, Record};
 use crate::oled;
 use crate::report::Report;
@@ -19,24 +22,35 @@ pub(crate) const TWO_CORES: f64 = 1.8;
 
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
-    let jobs: Vec<Job> = Job::small().collect();
     report.check("baked: a scene baked by the build script, read in place", baked);
     for machine in &MACHINES {
+        let jobs: Vec<Job> = Job::small().filter(|job| machine.carries(job)).collect();
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {
             let firmware = machine.build()?;
             let dump = firmware.with_extension("ppm");
             // A picture from before proves nothing.
             let _ = std::fs::remove_file(&dump);
-            Ok((machine.run(&firmware, &jobs, &dump, PATIENCE)?, dump))
+            let mut words: Vec<String> = jobs.iter().map(Job::to_string).collect();
+            if machine.rebuilds() {
+                words.extend(SHAPES.map(|n| format!("rebuild:{n}")));
+            }
+            Ok((machine.run(&firmware, &words, &dump, PATIENCE)?, dump))
         }) else {
             continue;
         };
+        report.check(&format!("{}: nothing computes in double precision", machine.core), || {
+            no_double(&dump.with_extension(""))
+        });
         report.check(&format!("{}: the clock counts instructions", machine.core), || clock(&log));
         for job in &jobs {
             report.check(&format!("{}: {job} has the host's bits", machine.core), || {
                 same_bits(&log, job)
             });
+        }
+        for shapes in SHAPES.into_iter().filter(|_| machine.rebuilds()) {
+            let name = format!("{}: a tree over {shapes} shapes is the host's", machine.core);
+            report.check(&name, || rebuilt(&log, shapes).map(drop));
         }
         for record in log.records("shared") {
             let name = record.get("job").unwrap_or("a job");
@@ -56,6 +70,28 @@ pub(crate) fn check(report: &mut Report) {
 fn baked() -> Result<(), String> {
     let said = output(&mut cargo(&boards().join("baked"), ["run", "-q", "--release"]))?;
     if said.contains("same-as-host=true") { Ok(()) } else { Err(said) }
+}
+
+/// An image holds no software for double precision: no board computes in it, and one slip in a
+/// hot loop would cost thousands of instructions.
+pub(crate) fn no_double(firmware: &Path) -> Result<(), String> {
+    let found = elf::doubles(firmware)?;
+    if found.is_empty() { Ok(()) } else { Err(format!("it holds {}", found.join(", "))) }
+}
+
+/// What a board said of a tree that it built, which is the host's to the word.
+pub(crate) fn rebuilt(log: &Log, shapes: usize) -> Result<Record<'_>, String> {
+    let record = log
+        .records("rebuilt")
+        .find(|record| record.number("shapes") == Ok(shapes as u64))
+        .ok_or_else(|| format!("no tree over {shapes} shapes"))?;
+    let there = record.get("checksum")?;
+    let checksum = format!("{:016x}", rebuild(shapes, &mut ()).checksum.value());
+    if there == checksum {
+        Ok(record)
+    } else {
+        Err(format!("checksum {there}, on the host {checksum}"))
+    }
 }
 
 /// Two cores draw the picture of one, and soon enough.

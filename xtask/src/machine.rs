@@ -1,5 +1,6 @@
 //! The emulated boards: building their firmware, and running it in QEMU.
 
+use std::fmt::Display;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -48,12 +49,25 @@ pub(crate) struct Machine {
     pub(crate) emulator: Emulator,
     /// Whether single precision is done by the core.
     pub(crate) float: bool,
+    /// Which jobs its flash has room for.
+    carries: Carries,
     /// Whether it shows a picture at the end, which ends with the monitor's `quit`.
     pub(crate) display: bool,
 }
 
+/// The jobs that a machine's flash has room for.
+#[derive(Clone, Copy)]
+enum Carries {
+    /// All.
+    All,
+    /// Not what is there to be counted alone.
+    Few,
+    /// What another machine with the same code has no room for.
+    Rest,
+}
+
 /// All of them.
-pub(crate) const MACHINES: [Machine; 8] = [
+pub(crate) const MACHINES: [Machine; 9] = [
     Machine {
         core: "Cortex-M0",
         board: "microbit",
@@ -61,6 +75,18 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "microbit",
         emulator: Emulator::ARM,
         float: false,
+        carries: Carries::Few,
+        display: false,
+    },
+    // A Cortex-M3 runs the instructions of ARMv6-M, as many as a Cortex-M0 does.
+    Machine {
+        core: "Cortex-M0's code",
+        board: "mps2",
+        target: "thumbv6m-none-eabi",
+        machine: "mps2-an385",
+        emulator: Emulator::ARM,
+        float: false,
+        carries: Carries::Rest,
         display: false,
     },
     Machine {
@@ -70,6 +96,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "lm3s6965evb",
         emulator: Emulator::ARM,
         float: false,
+        carries: Carries::Few,
         display: true,
     },
     Machine {
@@ -79,6 +106,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "mps2-an385",
         emulator: Emulator::ARM,
         float: false,
+        carries: Carries::All,
         display: false,
     },
     Machine {
@@ -88,6 +116,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "mps2-an386",
         emulator: Emulator::ARM,
         float: true,
+        carries: Carries::All,
         display: false,
     },
     Machine {
@@ -97,6 +126,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "mps2-an500",
         emulator: Emulator::ARM,
         float: true,
+        carries: Carries::All,
         display: false,
     },
     Machine {
@@ -106,6 +136,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "mps2-an505",
         emulator: Emulator::ARM,
         float: true,
+        carries: Carries::All,
         display: false,
     },
     Machine {
@@ -115,6 +146,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "mps2-an521",
         emulator: Emulator::ARM,
         float: false,
+        carries: Carries::Few,
         display: false,
     },
     Machine {
@@ -124,6 +156,7 @@ pub(crate) const MACHINES: [Machine; 8] = [
         machine: "virt",
         emulator: Emulator::RISCV,
         float: false,
+        carries: Carries::All,
         display: false,
     },
 ];
@@ -200,11 +233,25 @@ impl Machine {
         build(&boards().join(self.board), self.board, self.target)
     }
 
+    /// Whether its firmware is meant to draw a job.
+    pub(crate) fn carries(&self, job: &Job) -> bool {
+        match self.carries {
+            Carries::All => true,
+            Carries::Few => !job.scene.is_for_counting(),
+            Carries::Rest => job.scene.is_for_counting(),
+        }
+    }
+
+    /// Whether it builds trees when told to.
+    pub(crate) fn rebuilds(&self) -> bool {
+        !matches!(self.carries, Carries::Few)
+    }
+
     /// Runs a firmware on jobs. One that shows a picture has it dumped to `dump`.
     pub(crate) fn run(
         &self,
         firmware: &Path,
-        jobs: &[Job],
+        jobs: &[impl Display],
         dump: &Path,
         patience: Duration,
     ) -> Result<Log, String> {

@@ -58,6 +58,11 @@ impl Board {
         let mut any = false;
         for arg in args {
             any = true;
+            #[cfg(feature = "counted")]
+            if let Some(shapes) = arg.strip_prefix("rebuild:").and_then(|n| n.parse().ok()) {
+                self.rebuild(shapes);
+                continue;
+            }
             match arg.parse() {
                 Ok(job) => self.draw(&job),
                 Err(error) => {
@@ -87,6 +92,21 @@ impl Board {
         #[cfg(feature = "rays")]
         print_rays(job, checksum);
         println!();
+    }
+
+    /// Builds a tree over so many shapes and prints a line `rebuilt …`.
+    #[cfg(feature = "counted")]
+    fn rebuild(&mut self, shapes: usize) {
+        let built = crate::rebuild::rebuild(shapes, &mut self.counter);
+        let instructions = self.instructions();
+        println!(
+            "rebuilt board={} shapes={shapes} checksum={:016x} instructions={instructions} \
+             words={} scratch={}",
+            self.name,
+            built.checksum.value(),
+            built.words,
+            built.scratch,
+        );
     }
 
     /// Draws on a display, then prints a line `shown …` with what that took, tracing included.

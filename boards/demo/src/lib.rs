@@ -8,6 +8,7 @@ pub mod deal;
 pub mod frame;
 pub mod job;
 pub mod oled;
+pub mod rebuild;
 pub mod rgb565;
 pub mod scenes;
 
