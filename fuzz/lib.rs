@@ -1,7 +1,9 @@
 //! What the targets share.
 
+use whitted::blob::{Blob, seal};
 use whitted::frame::{Output, Renderer, Rgb888, Sample, Settings};
 use whitted::math::Fixed;
+use whitted::scene::{Camera, Light, Material, MaterialSpec, Scene};
 use whitted::trace::Work;
 use whitted_host::bake::{Baked, Construct};
 use whitted_host::document::Size;
@@ -25,15 +27,56 @@ pub fn survives(format: Format, bytes: &[u8]) {
     }
 }
 
-/// Traces a picture of a few pixels.
+/// Opens bytes as a blob, the checksum made right, and traces a few pixels of what is in it.
+pub fn survives_blob(bytes: &[u8]) {
+    let mut words = vec![0u64; bytes.len().div_ceil(8)];
+    let Some(aligned) = bytemuck::cast_slice_mut::<u64, u8>(&mut words).get_mut(..bytes.len())
+    else {
+        return;
+    };
+    aligned.copy_from_slice(bytes);
+    // The length is a count like others, so the sum is over what it says.
+    let length = bytes.get(12..16).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes);
+    if let Some(blob) = aligned.get_mut(..length as usize) {
+        seal(blob);
+    }
+    look_into_fixed(aligned);
+    look_into_f32(aligned);
+    look_into_f64(aligned);
+}
+
+macro_rules! look_into {
+    ($($name:ident: $a:ty),*) => {
+        $(
+            fn $name(bytes: &[u8]) {
+                let Ok(blob) = Blob::<$a>::open(bytes) else { return };
+                let mut materials = [Material::<$a>::new(MaterialSpec::BLACK); 16];
+                let mut lights = [Light::<$a>::point([0.0; 3], [0.0; 3]); 8];
+                let Ok(scene) = blob.scene(&mut materials, &mut lights) else { return };
+                let Ok(camera) = blob.camera() else { return };
+                trace::<$a>(&scene, &camera);
+            }
+        )*
+    };
+}
+
+look_into!(look_into_fixed: Fixed, look_into_f32: f32, look_into_f64: f64);
+
+/// The side of a picture of a few pixels.
+const SIDE: u16 = 4;
+
+/// Traces such a picture of what a document became.
 fn look<A: Construct>(baked: &Baked<A>) {
-    const SIDE: u16 = 4;
     let size = Size { width: SIDE.into(), height: SIDE.into() };
-    let (Ok(scene), Ok(camera)) = (baked.scene(), baked.camera(size)) else { return };
+    let Ok(camera) = baked.camera(size) else { return };
+    let _ = baked.with_scene(|scene| trace(scene, &camera));
+}
+
+fn trace<A: Construct>(scene: &Scene<'_, A>, camera: &Camera<A>) {
     let mut work = Work::<A, 4>::new();
     let mut samples = [Sample::NONE; 0];
     let settings = Settings { depth: 4, ..Settings::new(SIDE, SIDE) };
-    let Ok(mut renderer) = Renderer::new(&scene, &camera, settings, &mut work, &mut samples) else {
+    let Ok(mut renderer) = Renderer::new(scene, camera, settings, &mut work, &mut samples) else {
         return;
     };
     let mut line = [Rgb888::default(); SIDE as usize];

@@ -50,6 +50,35 @@ fn same_bits() {
     assert_eq!(scenes.0, 18);
 }
 
+/// What the renderer knows of rays from the eye and to the lights changes no bit.
+struct Unseen;
+
+impl<A: Arithmetic> Tailored<A> for Unseen {
+    fn scene<const USES: u64>(
+        &mut self,
+        name: &str,
+        scene: &'static Scene<'static, A, USES>,
+        camera: &'static Camera<A>,
+    ) {
+        let settings = Settings::new(60, 45);
+        let mut work = Work::<A, 5>::new();
+        let mut renderer =
+            Renderer::new(scene, camera, settings, &mut work, &mut []).expect("settings");
+        let seen: Vec<_> = renderer.scan(0..60, 0..45).collect();
+        for (x, y, radiance) in seen {
+            let ray = renderer.ray(x, y);
+            assert!(renderer.radiance(&ray) == radiance, "{name} in {} at {x}, {y}", A::NAME);
+        }
+    }
+}
+
+#[test]
+fn any_ray_has_the_same_bits() {
+    fixed::tailored(&mut Unseen);
+    single::tailored(&mut Unseen);
+    double::tailored(&mut Unseen);
+}
+
 /// Refuses a scene without any one of the bits that it needs, and takes it with more.
 struct Refused;
 

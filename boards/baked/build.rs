@@ -13,6 +13,10 @@ use whitted_host::render::{Settings, render};
 use whitted_host::{build, read};
 
 const SIZE: Size = Size { width: 96, height: 64 };
+/// The other program's scene, whose light is an area: some ten rays for each of another. Its
+/// irradiance records are made here.
+const BATHROOM: &str = "../../host/scenes/bathroom-indirect.toml";
+const SMALL: Size = Size { width: 40, height: 30 };
 
 fn main() {
     println!("cargo::rerun-if-env-changed=WHITTED_SCENE");
@@ -20,10 +24,21 @@ fn main() {
     let scene = env::var_os("WHITTED_SCENE").map_or_else(showcase, PathBuf::from);
     let blob = build::blob::<Fixed>(&scene, Some(SIZE));
     println!("cargo::rustc-env=BLOB={}", blob.display());
-    println!("cargo::rustc-env=WANTED={}", wanted(&scene));
+    let (checksum, rays) = wanted(&scene, SIZE);
+    println!("cargo::rustc-env=WANTED={checksum}");
+    println!("cargo::rustc-env=RAYS={rays}");
+
+    println!("cargo::rerun-if-env-changed=WHITTED_SOURCE");
+    let bathroom = || PathBuf::from(BATHROOM);
+    let scene = env::var_os("WHITTED_SOURCE").map_or_else(bathroom, PathBuf::from);
+    let source = build::source::<Fixed>(&scene, Some(SMALL));
+    let (checksum, rays) = wanted(&scene, SMALL);
+    println!("cargo::rustc-env=SOURCE={}", source.display());
+    println!("cargo::rustc-env=SOURCE_WANTED={checksum}");
+    println!("cargo::rustc-env=SOURCE_RAYS={rays}");
 
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    let map = Path::new("../mps2/memory.x");
+    let map = Path::new("memory.x");
     fs::copy(map, out.join("memory.x")).expect("the board has a memory.x");
     println!("cargo::rerun-if-changed={}", map.display());
     println!("cargo::rustc-link-search={}", out.display());
@@ -31,15 +46,15 @@ fn main() {
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
 }
 
-/// The checksum of the picture that the host renders: FNV-1a of the pixels' bytes.
-fn wanted(scene: &Path) -> u64 {
+/// The checksum of the picture that the host renders, FNV-1a of the pixels' bytes, and its rays.
+fn wanted(scene: &Path, size: Size) -> (u64, u64) {
     let document = read::read(scene).unwrap_or_else(|error| panic!("{error}"));
     let baked = Baked::<Fixed>::new(&document).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
     let settings = Settings {
-        size: SIZE,
+        size,
         depth: document.rules.depth.min(8),
         sampling: Sampling::Center,
-        indirect: None,
+        indirect: document.indirect,
         show: None,
         threads: NonZeroUsize::MIN,
     };
@@ -47,7 +62,9 @@ fn wanted(scene: &Path) -> u64 {
         render(&baked, &settings, |_| {}).unwrap_or_else(|flaw| panic!("{}", flaw.of(scene)));
     let mut picture = rendered.picture;
     let bytes = picture.rows_mut().flatten().flat_map(|pixel| *pixel);
-    bytes.fold(0xCBF2_9CE4_8422_2325, |sum: u64, byte| {
+    let checksum = bytes.fold(0xCBF2_9CE4_8422_2325, |sum: u64, byte| {
         (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    })
+    });
+    // The board makes no records: it has them.
+    (checksum, rendered.counts.rays() - rendered.made.rays())
 }

@@ -176,7 +176,11 @@ impl fmt::Display for Problem {
             }
             Self::NotText => write!(f, "is not text (a scene file is UTF-8)"),
             Self::Format { ending } => {
-                write!(f, "unknown format \"{}\"; known: .toml, .nff, .obj", shown(ending))
+                write!(
+                    f,
+                    "unknown format \"{}\"; known: .toml, .nff, .obj, .gltf, .glb",
+                    shown(ending)
+                )
             }
             Self::Circle => write!(f, "is included by itself: a scene can't contain itself"),
             Self::Empty => write!(f, "there is no scene in this file; it is empty"),
@@ -203,8 +207,9 @@ impl fmt::Display for Problem {
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
-            Some(line) => write!(f, "{}:{line}: {}", self.file.display(), self.problem),
-            None => write!(f, "{}: {}", self.file.display(), self.problem),
+            // Formats that aren't text have no lines.
+            Some(line @ 1..) => write!(f, "{}:{line}: {}", self.file.display(), self.problem),
+            _ => write!(f, "{}: {}", self.file.display(), self.problem),
         }
     }
 }

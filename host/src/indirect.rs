@@ -87,15 +87,8 @@ impl<A: Construct> Pools<A> {
                 Indirect::Cache(filled)
             }
             Some(document::Indirect::VirtualLights(lights)) => {
-                let center = bounds.map_or([0.0; 3], |bounds| bounds.center());
-                let settings = A::new_virtual_lights(&VirtualLightsSpec {
-                    bounces: lights.bounces as u8,
-                    tile: lights.tile as u8,
-                    nearest: placed(lights.nearest, near),
-                    center,
-                    radius: bounds.map_or(0.0, |bounds| bounds.side() * 0.75f64.sqrt()),
-                })
-                .map_err(|error| refused(error.to_string()))?;
+                let settings = A::new_virtual_lights(&virtual_lights(baked, &lights))
+                    .map_err(|error| refused(error.to_string()))?;
                 self.lights = vec![VirtualLight::NONE; lights.lights as usize];
                 let laid =
                     VirtualLights::lay(scene, &settings, &mut self.lights, &mut work, counts);
@@ -103,5 +96,21 @@ impl<A: Construct> Pools<A> {
             }
         };
         scene.with_indirect(made).map_err(|error| refused(error.to_string()))
+    }
+}
+
+/// The core's settings of virtual lights, for the scene as it was placed.
+pub(crate) fn virtual_lights<A: Construct>(
+    baked: &Baked<A>,
+    lights: &document::VirtualLights,
+) -> VirtualLightsSpec {
+    let bounds = baked.document().bounds();
+    let [near, _] = distances(bounds);
+    VirtualLightsSpec {
+        bounces: lights.bounces as u8,
+        tile: lights.tile as u8,
+        nearest: lights.nearest.map_or(near, |given| baked.placement.length(given)),
+        center: bounds.map_or([0.0; 3], |bounds| bounds.center()),
+        radius: bounds.map_or(0.0, |bounds| bounds.side() * 0.75f64.sqrt()),
     }
 }

@@ -8,6 +8,7 @@ pub mod build;
 pub mod document;
 pub mod error;
 pub mod flash;
+pub mod gltf;
 pub mod indirect;
 mod mesh;
 pub mod need;

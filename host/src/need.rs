@@ -1,6 +1,6 @@
 //! What a scene needs of a chip: flash, memory and, roughly, time.
 
-use whitted::scene::{Group, Parts};
+use whitted::scene::{Group, Parts, Pattern, Texels};
 use whitted::tally::Counts;
 use whitted::trace::Work;
 
@@ -28,15 +28,19 @@ pub fn flash<A: Construct>(baked: &Baked<A>) -> Result<Vec<(&'static str, usize)
                     $of,
                     spheres "spheres", triangles "triangles", smooth_triangles "smooth triangles",
                     polygons "polygons", edges "their edges", cuboids "boxes", discs "discs",
-                    cylinders "cylinders", cones "cones", solids "solids", operands "their parts"
+                    cylinders "cylinders", cones "cones", solids "solids", operands "their parts",
+                    uvs "texture coordinates"
                 )
             };
         }
         let mut sizes = shapes!(parts).to_vec();
         sizes.extend(sizes!(
             parts,
-            planes "planes", instances "instances", materials "materials", lights "lights"
+            planes "planes", instances "instances", materials "materials", textures "textures",
+            absorptions "media", lights "lights", area_lights "area lights",
+            light_corners "their corners"
         ));
+        sizes.push(("pictures", pictures(baked)));
         // A group once, however often it is placed.
         let mut groups: Vec<&Group<'_, A>> = Vec::new();
         for instance in parts.instances {
@@ -53,6 +57,24 @@ pub fn flash<A: Construct>(baked: &Baked<A>) -> Result<Vec<(&'static str, usize)
     sizes.push(("the rest", size_of::<Parts<'_, A>>()));
     sizes.retain(|&(_, bytes)| bytes > 0);
     Ok(sizes)
+}
+
+/// Bytes of the pictures that textures show, with their palettes: one that several show counts once.
+fn pictures<A: Construct>(baked: &Baked<A>) -> usize {
+    let materials = baked.document().materials.iter();
+    let textures = materials.flat_map(|m| [&m.texture, &m.bump]).flatten();
+    let mut known: Vec<(&[u8], &[[u8; 3]])> = Vec::new();
+    for texture in textures {
+        let Pattern::Image(image) = texture.spec.pattern else { continue };
+        let palette = match image.texels() {
+            Texels::Indexed { palette, .. } => palette,
+            Texels::Rgb565 => &[],
+        };
+        if !known.iter().any(|(bytes, _)| std::ptr::eq(*bytes, image.bytes())) {
+            known.push((image.bytes(), palette));
+        }
+    }
+    known.iter().map(|(bytes, palette)| bytes.len() + size_of_val(*palette)).sum()
 }
 
 /// Bytes of memory that a tracer works in, for trees of rays of this depth.

@@ -19,6 +19,8 @@ pub enum Format {
     Nff,
     /// Wavefront OBJ.
     Obj,
+    /// glTF 2.0, as text or in one piece.
+    Gltf,
 }
 
 impl Format {
@@ -29,6 +31,7 @@ impl Format {
             "toml" => Some(Self::Toml),
             "nff" => Some(Self::Nff),
             "obj" => Some(Self::Obj),
+            "gltf" | "glb" => Some(Self::Gltf),
             _ => None,
         }
     }
@@ -42,6 +45,7 @@ impl Format {
             Self::Toml => crate::toml::parse(text, around),
             Self::Nff => crate::nff::parse(text),
             Self::Obj => crate::obj::parse(text, around),
+            Self::Gltf => crate::gltf::parse(text.as_bytes(), around),
         }
     }
 }
@@ -134,6 +138,10 @@ pub fn parse(format: Format, bytes: &[u8]) -> Result<Document, Flaw> {
 }
 
 fn parse_around(format: Format, bytes: &[u8], around: &Around) -> Result<Document, Flaw> {
+    if format == Format::Gltf {
+        // Of which a part may be no text.
+        return crate::gltf::parse(bytes, around);
+    }
     let text = std::str::from_utf8(bytes).map_err(|e| not_text(bytes, e.valid_up_to()))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if let Some(at) = text.bytes().position(|b| b == 0) {

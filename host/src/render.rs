@@ -2,11 +2,13 @@
 
 mod bands;
 mod deadline;
+mod live;
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 pub use deadline::{Shown, render_until};
+pub use live::{Colors, Next, Watcher, live, shown};
 pub use whitted::frame::{Progress, Sampling};
 use whitted::frame::{Renderer, Sample};
 use whitted::scene::{Camera, Scene};
@@ -60,6 +62,8 @@ pub struct Rendered {
     pub picture: Picture,
     /// The rays by kind.
     pub counts: Counts,
+    /// Those of them that made irradiance records or virtual lights, before the picture.
+    pub made: Counts,
     /// How long it took.
     pub time: Duration,
 }
@@ -82,6 +86,7 @@ pub fn render<A: Construct>(
         let lit = pools.light(baked, scene, &camera, settings.size, wanted, &mut made)?;
         let mut rendered = render_scene(&lit, &camera, settings, terms, progress)?;
         rendered.counts += made;
+        rendered.made = made;
         rendered.time = start.elapsed();
         Ok(rendered)
     })?
@@ -106,7 +111,7 @@ fn render_scene<A: Construct>(
     } else {
         bands::paint(scene, camera, core, settings.threads, &mut picture, &mut progress)?
     };
-    Ok(Rendered { picture, counts, time: start.elapsed() })
+    Ok(Rendered { picture, counts, made: Counts::default(), time: start.elapsed() })
 }
 
 /// Calls `act` with a renderer and the memory that it needs.

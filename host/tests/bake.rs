@@ -8,11 +8,12 @@ use std::path::Path;
 use common::{errors, files, said, spd, whitted};
 use whitted::blob::Blob;
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
+use whitted::gather::Record;
 use whitted::math::Fixed;
 use whitted::scene::{Camera, Light, Material, MaterialSpec, Scene};
 use whitted::trace::Work;
-use whitted_host::bake::{Baked, Thrift};
-use whitted_host::document::Size;
+use whitted_host::bake::{Baked, Glow, Thrift};
+use whitted_host::document::{Indirect, Size};
 use whitted_host::read;
 
 const SIZE: Size = Size { width: 48, height: 48 };
@@ -85,6 +86,43 @@ fn the_command_writes_either_form_and_says_its_size() {
     assert!(source.contains("pub const SIZE: (u16, u16) = (40, 30);"));
 }
 
+const LIGHTS: &str = "
+[[light]]
+type = 'disc'
+center = [0, 5, 0]
+normal = [0, -1, 0]
+radius = 1
+radiance = 3
+";
+
+#[test]
+fn what_a_blob_cannot_hold_is_named() {
+    let place = tempfile::tempdir().unwrap();
+    let indirect = "\n[indirect]\ntype = 'virtual-lights'\n";
+    for (name, more) in [("area.toml", LIGHTS), ("indirect.toml", indirect)] {
+        fs::write(place.path().join(name), format!("{SCENE}{more}")).unwrap();
+    }
+    for (arguments, says) in [
+        (["bake", "area.toml", "-o", "area.bin"], "area lights"),
+        (["bake", "indirect.toml", "-o", "indirect.bin"], "interreflection"),
+    ] {
+        let output = whitted(place.path(), &arguments);
+        assert!(errors(&output).contains(says), "{}", errors(&output));
+        assert_eq!(output.status.code(), Some(2));
+    }
+    let output = whitted(place.path(), &["bake", "area.toml", "-q", "-o", "area.rs"]);
+    assert_eq!(errors(&output), "");
+    let source = fs::read_to_string(place.path().join("area.rs")).unwrap();
+    assert!(source.contains("static AREA_LIGHTS: [whitted::scene::AreaLight<A>; 1] = ["));
+    let output = whitted(place.path(), &["bake", "indirect.toml", "-o", "indirect.rs"]);
+    assert_eq!(errors(&output), "");
+    assert!(said(&output).contains("7168 bytes  256 virtual lights\n"), "{}", said(&output));
+    let source = fs::read_to_string(place.path().join("indirect.rs")).unwrap();
+    assert!(source.contains("static VIRTUAL_LIGHTS: [whitted::gather::VirtualLight<A>; 256] = ["));
+    assert!(source.contains("    indirect: INDIRECT,\n"));
+    assert_eq!(files(place.path()), ["area.rs", "area.toml", "indirect.rs", "indirect.toml"]);
+}
+
 #[test]
 fn what_cannot_be_baked_leaves_no_file() {
     let place = tempfile::tempdir().unwrap();
@@ -100,4 +138,22 @@ fn what_cannot_be_baked_leaves_no_file() {
         assert_eq!(output.status.code(), Some(2));
     }
     assert_eq!(files(place.path()), ["bad.toml", "row.toml"]);
+}
+
+/// What source is made of makes the gatherer's records again, to the bit.
+#[test]
+fn irradiance_records_come_back() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut document = read::read(&scenes.join("bathroom-indirect.toml")).unwrap();
+    let Some(Indirect::Cache(cache)) = &mut document.indirect else { panic!("no cache") };
+    cache.bounces = 1;
+    let baked = Baked::<Fixed>::with(&document, Thrift::Flash).unwrap();
+    let glow = baked.glow(Size { width: 40, height: 30 }).unwrap();
+    let Glow::Cache { records, error } = glow else { panic!("no cache") };
+    assert_eq!(error, 0.5);
+    assert!(records.len() > 162, "{}", records.len());
+    for spec in records {
+        let again = Record::<Fixed>::try_new(&spec).map(|record| record.spec());
+        assert_eq!(again, Ok(spec));
+    }
 }

@@ -192,3 +192,28 @@ fn an_output_that_cannot_be_written() {
     assert!(errors(&output).contains("nowhere/x.png: can't be written: "), "{}", errors(&output));
     assert_eq!(output.status.code(), Some(1));
 }
+
+#[cfg(all(unix, not(target_os = "macos")))]
+#[test]
+fn a_window_without_a_display_is_refused_clearly() {
+    let place = tempfile::tempdir().unwrap();
+    let view = |display: Option<&str>| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_whitted"));
+        command.current_dir(place.path()).args(["view", &scene("limit")]);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+        command.envs(display.map(|name| ("DISPLAY", name)));
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(said(&output), "");
+        errors(&output)
+    };
+    assert_eq!(
+        view(None),
+        "whitted: there is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is \
+         set); `whitted render` saves a picture instead\n"
+    );
+    // One that is named but isn't there.
+    let error = view(Some(":987"));
+    assert!(error.starts_with("whitted: there is no display to open a window on ("), "{error}");
+    assert_eq!(files(place.path()), [""; 0]);
+}

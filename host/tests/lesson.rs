@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{errors, said, whitted};
+use common::{decibels, errors, pixels, said, whitted};
 
 /// Pictures this near are the same: a change of the last bits somewhere is none of the lesson.
 const SAME: f64 = 50.0;
@@ -74,21 +74,6 @@ fn run(command: &str, out: &Path) -> String {
     let unsaid = |line: &str| line.contains(" s (") || line.ends_with(".png");
     let lines = all.lines().filter(|line| !unsaid(line));
     lines.map(|line| format!("{line}\n")).collect()
-}
-
-fn pixels(path: &Path) -> Vec<u8> {
-    let file = std::fs::File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
-    let mut data = vec![0; reader.output_buffer_size().expect("it is small")];
-    reader.next_frame(&mut data).expect("a whole one");
-    data
-}
-
-/// 10·log₁₀(255²/mean squared difference).
-fn decibels(a: &[u8], b: &[u8]) -> f64 {
-    let square = |(a, b): (&u8, &u8)| f64::from(a.abs_diff(*b)).powi(2);
-    let mean = a.iter().zip(b).map(square).sum::<f64>() / a.len() as f64;
-    10.0 * (255.0 * 255.0 / mean).log10()
 }
 
 #[test]

@@ -399,6 +399,8 @@ const OBJ: &[(&str, &str)] = &[
     ("f 1 2 3/1", ":4: texture coordinate number 1 is out of range: it must be left out: no"),
     ("f 1 2 3//1", ":4: normal number 1 is out of range: it must be left out"),
     ("f 1 2 //3", ":4: normal number 3 is out of range"),
+    ("vt x", ":4: found \"x\"; a finite number (texture u)"),
+    ("vt 0 2e6", ":4: texture v 2000000 is out of range: it must be -1000000 to 1000000"),
     ("f 1 2 x", ":4: found \"x\"; position/texture/normal, each a whole number"),
     ("s red", ":4: found \"red\"; a smoothing group's number, or off"),
     ("usemtl", ":4: a number or name (material) on this line is missing"),
@@ -468,8 +470,8 @@ fn what_is_no_scene_file() {
     for (scene, says) in [
         ("nowhere.toml", "nowhere.toml: can't be read: No such file"),
         ("folder.toml", "folder.toml: is a directory; a scene is a file"),
-        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff, .obj"),
-        ("scene", "scene: unknown format \"\"; known: .toml, .nff, .obj"),
+        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff, .obj, .gltf"),
+        ("scene", "scene: unknown format \"\"; known: .toml, .nff, .obj, .gltf"),
     ] {
         let output = whitted(place.path(), &["render", scene]);
         assert!(errors(&output).contains(says), "{}", errors(&output));

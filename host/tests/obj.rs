@@ -165,13 +165,90 @@ fn materials_by_their_illumination() {
     assert_eq!((shiny.specular, shiny.shininess, shiny.reflection), ([0.2, 0.3, 0.4], 20.0, none));
     let (mirror, _) = material(&format!("{base}illum 3\nd 1\n"));
     assert_eq!((mirror.reflection, mirror.transmission), ([0.2, 0.3, 0.4], none));
-    let (glass, warnings) = material(&format!("{base}illum 7\nTf 0.9 0.8 0.7\nmap_Kd a.png\n"));
+    let (glass, warnings) =
+        material(&format!("{base}Ke 1 2 0\nillum 7\nTf 0.9 0.8 0.7\nmap_Ks a.png\n"));
+    assert_eq!(glass.emission, [1.0, 2.0, 0.0]);
     assert_eq!((glass.transmission, glass.index_behind), ([0.9, 0.8, 0.7], 1.5));
     assert_eq!(glass.shadow, ShadowThrough::Filtered);
-    assert!(warnings.contains("1: my own.mtl:8: maps (map_"), "{warnings}");
+    assert!(warnings.contains("1: my own.mtl:9: maps other than map_Kd (map_"), "{warnings}");
     assert!(warnings.contains("my own.mtl:1: material \"a\": illum 5 and 7 weigh"), "{warnings}");
     let (veil, _) = material(&format!("{base}Tr 0.75\n"));
     assert_eq!((veil.transmission, veil.diffuse), ([0.75; 3], [0.125, 0.1, 0.075]));
+}
+
+/// A picture of two by two pixels: red, green above; blue, white below.
+fn four_colors(file: &Path) {
+    let mut encoder = png::Encoder::new(fs::File::create(file).unwrap(), 2, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    let pixels = [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255];
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+}
+
+#[test]
+fn a_map_is_shown_where_the_mesh_says() {
+    let place = tempfile::tempdir().unwrap();
+    four_colors(&place.path().join("my map.png"));
+    fs::write(place.path().join("a.mtl"), "newmtl a\nmap_Kd my map.png\n").unwrap();
+    // A square of five by five whose picture is repeated: 3.0 to 4.0.
+    let mesh = "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 5 0 0\nv 5 5 0\nv 0 5 0\n\
+                vt 3 -7\nvt 4 -7\nvt 4 -6\nvt 3 -6 0\nf 1/1 2/2 3/3 4/4\n";
+    fs::write(place.path().join("a.obj"), mesh).unwrap();
+    let read = document(place.path(), "a.obj");
+    assert_eq!(read.shapes.len(), 2, "polygons have no coordinates, triangles have");
+    assert_eq!(read.shapes[0].uv, Some([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]));
+    let scene = "ambient = 1\n[camera]\neye = [2.5, 2.5, 9]\nlook_at = [2.5, 2.5, 0]\nangle = 30\n\
+                 [[mesh]]\nfile = \"a.obj\"\n";
+    fs::write(place.path().join("scene.toml"), scene).unwrap();
+    let output = whitted(
+        place.path(),
+        &["-q", "render", "scene.toml", "--size", "8x8", "--sampling", "center", "-o", "a.png"],
+    );
+    assert_eq!(errors(&output), "");
+    let file = std::io::BufReader::new(fs::File::open(place.path().join("a.png")).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    let largest = |x: usize, y: usize| {
+        let rgb = &bytes[3 * (8 * y + x)..][..3];
+        (0..3).map(|i| rgb[i] > 128).collect::<Vec<_>>()
+    };
+    assert_eq!(largest(1, 1), [true, false, false]);
+    assert_eq!(largest(6, 1), [false, true, false]);
+    assert_eq!(largest(1, 6), [false, false, true]);
+    assert_eq!(largest(6, 6), [true, true, true]);
+
+    let wrong = mesh.replace("f 1/1 2/2 3/3 4/4", "f 1 2 3");
+    fs::write(place.path().join("a.obj"), wrong).unwrap();
+    fs::remove_file(place.path().join("my map.png")).unwrap();
+    let read = document(place.path(), "a.obj");
+    assert!(warned(&read).contains("1: a.mtl:2: map_Kd \"my map.png\": can't be read"));
+    assert!(read.materials[0].texture.is_none());
+}
+
+/// The Utah teapot's triangles from the databases, as another program would write them.
+#[test]
+fn the_teapot_as_a_mesh() {
+    let Some(spd) = common::spd() else { return };
+    let teapot = read::read(&spd.join("teapot_s12.nff")).unwrap();
+    let (mut positions, mut faces, mut count) = (String::new(), String::new(), 0);
+    for shape in &teapot.shapes {
+        let Body::SmoothTriangle { corners, normals } = &shape.body else { continue };
+        for ([x, y, z], [i, j, k]) in corners.iter().zip(normals) {
+            let _ = writeln!(positions, "v {x} {y} {z}\nvn {i} {j} {k}");
+        }
+        let [a, b, c] = [count + 1, count + 2, count + 3];
+        let _ = writeln!(faces, "f {a}//{a} {b}//{b} {c}//{c}");
+        count += 3;
+    }
+    assert!(count > 3 * 8000, "{count}");
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("teapot.obj"), positions + &faces).unwrap();
+    let read = document(place.path(), "teapot.obj");
+    assert_eq!(read.shapes.len(), count / 3);
+    let output = whitted(place.path(), &["bake", "teapot.obj"]);
+    assert!(output.status.success(), "{}", errors(&output));
+    let output = whitted(place.path(), &["-q", "render", "teapot.obj", "--size", "96x96"]);
+    assert!(output.status.success(), "{}", errors(&output));
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod common;
 
 use std::path::{Path, PathBuf};
 
-use common::{errors, files, said, whitted};
+use common::{decibels, errors, files, pixels, said, whitted};
 
 const SIZE: &str = "80x60";
 
@@ -21,22 +21,11 @@ fn names() -> Vec<String> {
 fn render(name: &str, arguments: &[&str]) -> Vec<u8> {
     let place = tempfile::tempdir().expect("a directory");
     let out = place.path().join("picture.png");
-    let out = out.to_str().expect("a plain name");
-    let all = [&["render", name, "-q", "--size", SIZE, "-o", out], arguments].concat();
+    let path = out.to_str().expect("a plain name");
+    let all = [&["render", name, "-q", "--size", SIZE, "-o", path], arguments].concat();
     let output = whitted(&scenes(), &all);
     assert!(output.status.success(), "{name}: {}", errors(&output));
-    let file = std::fs::File::open(out).expect("it was written");
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
-    let mut data = vec![0; reader.output_buffer_size().expect("it is small")];
-    reader.next_frame(&mut data).expect("a whole one");
-    data
-}
-
-/// 10·log₁₀(255²/mean squared difference).
-fn decibels(a: &[u8], b: &[u8]) -> f64 {
-    let square = |(a, b): (&u8, &u8)| f64::from(a.abs_diff(*b)).powi(2);
-    let mean = a.iter().zip(b).map(square).sum::<f64>() / a.len() as f64;
-    10.0 * (255.0 * 255.0 / mean).log10()
+    pixels(&out)
 }
 
 #[test]
@@ -85,21 +74,4 @@ fn a_light_with_an_area_takes_ten_times_the_rays() {
     // In the course's slides it is 1,688,849 against 152,105 rays: 11.1 times.
     let times = rays("room-area.toml") / rays("room-point.toml");
     assert!((8.0..14.0).contains(&times), "{times:.2} times");
-}
-
-#[test]
-fn boards_carry_the_bathroom_as_it_is_baked() {
-    let place = tempfile::tempdir().expect("a directory");
-    for arith in ["fixed", "f32"] {
-        let out = place.path().join("scene.rs");
-        let name = out.to_str().expect("a plain name");
-        let scene = "bathroom-small.toml";
-        let all = ["bake", scene, "-q", "--arith", arith, "--size", "160x120", "-o", name];
-        let output = whitted(&scenes(), &all);
-        assert!(output.status.success(), "{}", errors(&output));
-        let carried = format!("../../boards/demo/src/scenes/bathroom_{arith}.rs");
-        let carried = std::fs::read_to_string(scenes().join(carried)).expect("it is there");
-        let now = std::fs::read_to_string(&out).expect("it was written");
-        assert!(now == carried, "bake {scene} again, --arith {arith} --size 160x120");
-    }
 }

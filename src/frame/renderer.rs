@@ -99,6 +99,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if samples.len() < needed {
             return Err(FrameError::Samples { needed });
         }
+        work.look(scene, camera.eye());
         Ok(Self {
             tracer: Tracer::new(scene, depth).with_terms(terms),
             view: View::new(camera, width, height),
@@ -147,10 +148,24 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// Writes the pixels of row `y`, as many as the slice holds.
     #[inline(always)]
     pub fn line<P: Pixel>(&mut self, y: u16, output: &Output, pixels: &mut [P]) {
-        let rows = y..y.saturating_add(1);
+        if y >= self.settings.height {
+            return;
+        }
+        let row = self.view.row(y, 128);
         let width = self.settings.width;
-        for (pixel, (x, y, radiance)) in pixels.iter_mut().zip(self.scan(0..width, rows)) {
+        for (x, pixel) in (0..width).zip(pixels) {
+            let radiance = self.shown(&row, x, y, (0, width));
             *pixel = output.pixel::<A, P>(&radiance, x, y);
+        }
+    }
+
+    /// The pixel at (x, y), by whatever sampling: see [`sampled`](Self::sampled).
+    #[inline(always)]
+    fn shown(&mut self, row: &Row<A>, x: u16, y: u16, columns: (u16, u16)) -> Rgb<A::Radiance> {
+        if !uses::has_samplings(USES) || self.settings.sampling == Sampling::Center {
+            self.trace(row, x, 128)
+        } else {
+            self.sampled(x, y, columns)
         }
     }
 
@@ -177,7 +192,13 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
         self.prepare(row, x, fraction);
-        self.radiance(&ray)
+        // As in `radiance`.
+        if uses::has_signatures(USES) {
+            let mut watch = Watch::new(&mut self.tally);
+            self.tracer.seen(ray, self.work, &mut watch)
+        } else {
+            self.tracer.seen(ray, self.work, &mut self.tally)
+        }
     }
 
     /// Prepares for a ray.
@@ -202,7 +223,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let ray = self.view.ray(&row, x, right);
         self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
-        let radiance = self.tracer.radiance(ray, self.work, &mut watch);
+        let radiance = self.tracer.seen(ray, self.work, &mut watch);
         Sample::new(radiance, watch.signature)
     }
 
@@ -312,12 +333,8 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
         }
         let (x, y) = (self.x, self.rows.start);
         self.x += 1;
-        let radiance =
-            if !uses::has_samplings(USES) || self.renderer.settings.sampling == Sampling::Center {
-                self.renderer.trace(&self.row, x, 128)
-            } else {
-                self.renderer.sampled(x, y, (self.columns.start, self.columns.end))
-            };
+        let columns = (self.columns.start, self.columns.end);
+        let radiance = self.renderer.shown(&self.row, x, y, columns);
         Some((x, y, radiance))
     }
 }

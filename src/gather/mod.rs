@@ -22,7 +22,9 @@ pub use cache::IrradianceCache;
 pub use fill::{Draft, FillError, Gatherer};
 pub use record::{Record, RecordSpec};
 pub use settings::{Gathering, GatheringSpec};
-pub use virtual_light::{VirtualLight, VirtualLights, VirtualLightsSettings, VirtualLightsSpec};
+pub use virtual_light::{
+    VirtualLight, VirtualLightSpec, VirtualLights, VirtualLightsSettings, VirtualLightsSpec,
+};
 
 use crate::math::Arithmetic;
 use crate::scene::uses;

@@ -168,7 +168,9 @@ for_each_arithmetic! {
                 rotation_q6[i] = rounds(r * 63.0) as i8;
                 i += 1;
             }
-            if !(slope <= 1.02 && turn <= 4.08) {
+            // What a gatherer makes is a step too long at most in each component, rounded down:
+            // (1 + √3/127)², (2 + √3/63)², and a little.
+            if !(slope <= 1.03 && turn <= 4.12) {
                 return Err(ShapeError::Coefficient);
             }
             if !(square > 0.99 && square < 1.01) {

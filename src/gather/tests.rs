@@ -9,24 +9,31 @@ use crate::trace::Work;
 extern crate std;
 use std::vec;
 
+/// A sphere of albedo ½ around a light beside its centre, and a camera in it.
+macro_rules! in_a_sphere {
+    ($a:ty, $scene:ident, $camera:ident) => {
+        let spheres = [Sphere::<$a>::new([0.0; 3], 1.0, 0)];
+        let materials =
+            [Material::<$a>::new(MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK })];
+        let lights = [Light::<$a>::point([0.3, 0.0, 0.0], [1.0; 3])];
+        let $scene = Scene::<$a>::new(Parts {
+            spheres: &spheres,
+            materials: &materials,
+            lights: &lights,
+            ..Parts::EMPTY
+        })
+        .expect("a scene");
+        let $camera = Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
+    };
+}
+
 /// Inside a sphere of albedo ½ every point gets as much from the others: half of what a light of
 /// intensity π gives on average, 1 in our units, and with all further bounces twice as much.
 macro_rules! integrating_sphere {
     ($name:ident, $a:ty) => {
         #[test]
         fn $name() {
-            let spheres = [Sphere::<$a>::new([0.0; 3], 1.0, 0)];
-            let materials =
-                [Material::<$a>::new(MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK })];
-            let lights = [Light::<$a>::point([0.3, 0.0, 0.0], [1.0; 3])];
-            let scene = Scene::<$a>::new(Parts {
-                spheres: &spheres,
-                materials: &materials,
-                lights: &lights,
-                ..Parts::EMPTY
-            })
-            .expect("a scene");
-            let camera = Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
+            in_a_sphere!($a, scene, camera);
             for (bounces, wanted) in [(1, 0.25), (10, 0.5)] {
                 let spec = GatheringSpec {
                     error: 0.25,
@@ -68,18 +75,7 @@ macro_rules! virtual_sphere {
     ($name:ident, $a:ty) => {
         #[test]
         fn $name() {
-            let spheres = [Sphere::<$a>::new([0.0; 3], 1.0, 0)];
-            let materials =
-                [Material::<$a>::new(MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK })];
-            let lights = [Light::<$a>::point([0.3, 0.0, 0.0], [1.0; 3])];
-            let scene = Scene::<$a>::new(Parts {
-                spheres: &spheres,
-                materials: &materials,
-                lights: &lights,
-                ..Parts::EMPTY
-            })
-            .expect("a scene");
-            let camera = Camera::<$a>::look_at([0.0, 0.0, -0.9], [0.0; 3], [0.0, 1.0, 0.0], 120.0);
+            in_a_sphere!($a, scene, camera);
             for (bounces, tile, wanted) in [(1, 1, 0.25), (1, 4, 0.25), (4, 1, 0.25 * 1.875)] {
                 let settings = VirtualLightsSettings::<$a>::new(VirtualLightsSpec {
                     bounces,

@@ -17,6 +17,20 @@
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
 use crate::shape::{ShapeError, ok_or_panic, point, some_or};
 
+/// A virtual light as a baker writes it, in plain numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VirtualLightSpec {
+    /// Where.
+    pub position: [f64; 3],
+    /// The unit normal of the surface there, on the side that it sends light to.
+    pub normal: [f64; 3],
+    /// Sixteen times what it adds over a distance of 1, in the largest channel before the albedos.
+    pub intensity: f64,
+    /// The part of that in each channel with the albedos along the path, 0 to 1. A light whose
+    /// channels are all 0 shines on nothing.
+    pub color: Rgb<f64>,
+}
+
 /// A virtual light; 28 bytes in fixed point, and in `f32`; 40 in `f64`.
 #[derive(Clone, Copy, Debug)]
 pub struct VirtualLight<A: Arithmetic> {
@@ -100,7 +114,7 @@ pub struct VirtualLights<'a, A: Arithmetic> {
 
 impl<'a, A: Arithmetic> VirtualLights<'a, A> {
     /// The lights with what the settings say of their use.
-    pub fn new(lights: &'a [VirtualLight<A>], settings: &VirtualLightsSettings<A>) -> Self {
+    pub const fn new(lights: &'a [VirtualLight<A>], settings: &VirtualLightsSettings<A>) -> Self {
         let VirtualLightsSettings { log2_tile, nearest, .. } = *settings;
         Self { lights, log2_tile, nearest }
     }
@@ -131,6 +145,67 @@ impl<'a, A: Arithmetic> VirtualLights<'a, A> {
 }
 
 for_each_arithmetic! {
+    impl VirtualLight<A> {
+        /// A virtual light, for `static`s.
+        ///
+        /// # Panics
+        /// Where [`try_new`](Self::try_new) has an error.
+        pub const fn new(spec: VirtualLightSpec) -> Self {
+            ok_or_panic!(Self::try_new(&spec))
+        }
+
+        /// A virtual light.
+        ///
+        /// # Errors
+        /// A position or intensity out of range; for one that shines a normal that isn't a unit
+        /// vector; a colour that isn't within 0 and 1.
+        pub const fn try_new(spec: &VirtualLightSpec) -> Result<Self, ShapeError> {
+            let mut square = 0.0;
+            let mut normal_q14 = [0; 3];
+            let mut color_q15 = [0; 3];
+            let mut dark = true;
+            let mut i = 0;
+            while i < 3 {
+                let (n, c) = (spec.normal[i], spec.color[i]);
+                square += n * n;
+                // `as` keeps within i16
+                normal_q14[i] = (n * 16384.0 + if n < 0.0 { -0.5 } else { 0.5 }) as i16;
+                if !(c >= 0.0 && c <= 1.01) {
+                    return Err(ShapeError::Coefficient);
+                }
+                color_q15[i] = (c * 32768.0 + 0.5) as u16;
+                dark = dark && color_q15[i] == 0;
+                i += 1;
+            }
+            // A dark one may point nowhere.
+            let least = if dark { -1.0 } else { 0.99 };
+            if !(square > least && square < 1.01) {
+                return Err(ShapeError::Direction);
+            }
+            Ok(Self {
+                position: point!(make, spec.position),
+                intensity: some_or!(make::intensity(spec.intensity), Coefficient),
+                normal_q14,
+                color_q15,
+            })
+        }
+
+        /// In plain numbers, which make the same light again (but for one so faint that it can't
+        /// be seen, of less than 10⁻⁹).
+        pub const fn spec(&self) -> VirtualLightSpec {
+            let (mut position, mut normal, mut color) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+            let mut i = 0;
+            while i < 3 {
+                position[i] = make::from_length(self.position[i]);
+                normal[i] = self.normal_q14[i] as f64 / 16384.0;
+                color[i] = self.color_q15[i] as f64 / 32768.0;
+                i += 1;
+            }
+            let intensity = make::from_intensity(&self.intensity);
+            VirtualLightSpec { position, normal, intensity, color }
+        }
+    }
+
     impl VirtualLightsSettings<A> {
         /// The settings, for `const`s.
         ///
@@ -165,5 +240,42 @@ for_each_arithmetic! {
                 radius: some_or!(make::length(spec.radius), Size),
             })
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Fixed;
+
+    #[test]
+    fn specs_come_back() {
+        let spec = VirtualLightSpec {
+            position: [1.5, -2.25, 3.0],
+            normal: [0.0, 0.6, 0.8],
+            intensity: 1234.5678,
+            color: [0.5, 0.25, 1.0],
+        };
+        macro_rules! comes_back {
+            ($a:ty) => {
+                for intensity in [0.0, 1e-5, 0.3, 1234.5678, 9e11] {
+                    let light = VirtualLight::<$a>::new(VirtualLightSpec { intensity, ..spec });
+                    assert_eq!(VirtualLight::<$a>::new(light.spec()).spec(), light.spec());
+                    let back = light.spec().intensity;
+                    assert!((back - intensity).abs() <= intensity / 32000.0, "{back}");
+                }
+                let dark = VirtualLight::<$a>::NONE.spec();
+                assert!(VirtualLight::<$a>::new(dark).is_dark());
+                let bad = |spec| VirtualLight::<$a>::try_new(&spec).is_err();
+                assert!(bad(VirtualLightSpec { normal: [1.0; 3], ..spec }));
+                assert!(bad(VirtualLightSpec { normal: [0.0; 3], ..spec }));
+                assert!(bad(VirtualLightSpec { color: [2.0; 3], ..spec }));
+                assert!(bad(VirtualLightSpec { intensity: -1.0, ..spec }));
+                assert!(bad(VirtualLightSpec { position: [f64::NAN; 3], ..spec }));
+            };
+        }
+        comes_back!(Fixed);
+        comes_back!(f32);
+        comes_back!(f64);
     }
 }

@@ -127,6 +127,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     type Spot: Copy;
     /// A ray at low precision, for quick rejection.
     type Coarse: Copy;
+    /// The directions in which rays through a point can meet a sphere.
+    type DirectionCone: Copy + Debug + Send + Sync;
     /// A component of a camera's view vector, not normalised.
     type Aim: Number;
     /// A ray parameter within the octree, in units of the tree's side.
@@ -143,6 +145,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     const REFINE: bool;
     /// A hit at this distance or beyond is a miss.
     const FAR: Self::Length;
+    /// The cone of all directions.
+    const EVERY_DIRECTION: Self::DirectionCone;
     /// Zero length.
     const NO_LENGTH: Self::Length;
     /// Zero component.
@@ -202,6 +206,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// may be wrong. In fixed point that is a few steps and what the distance `t` adds, over which it
     /// was reached.
     fn leave(p: &[Self::Length; 3], n: &[Self::Unit; 3], t: Self::Length) -> [Self::Length; 3];
+    /// How far [`leave`](Self::leave) moves the point.
+    fn clearance(p: &[Self::Length; 3], t: Self::Length) -> Self::Length;
 
     /// The radius itself.
     fn radius(r: &Self::Radius) -> Self::Length;
@@ -247,6 +253,18 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     ) -> bool {
         true
     }
+
+    /// The directions in which rays can meet the sphere of radius `r` around `way` that start at
+    /// the coordinates' origin or, `blurred`, lead past it no farther than the direction made by
+    /// [`normalize`](Self::normalize) may be wrong. `None` for all directions: near the sphere, or
+    /// in it.
+    fn direction_cone(
+        way: &[Self::Length; 3],
+        r: &Self::Radius,
+        blurred: bool,
+    ) -> Option<Self::DirectionCone>;
+    /// Whether a direction lies in the cone: cheap, and never wrong when it says no.
+    fn in_cone(cone: &Self::DirectionCone, d: &[Self::Unit; 3]) -> bool;
 
     /// The weights of a triangle's second and third corner at the point (x, y) of its plane,
     /// both relative to its first corner and seen along the plane's dominant axis; `None`
@@ -312,7 +330,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn over_weight(r: Self::Radiance, w: Self::Weight) -> Self::Radiance;
     /// `middle + slope·u`, not below 0, for |slope| ≤ middle.
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
-    /// `a + b`, saturating.
+    /// `a + b`, saturating, for radiances that aren't negative.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
     /// The mean of `count` radiances that sum to `sum`.
     fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;

@@ -141,6 +141,13 @@ impl<A: Arithmetic> Row<A> {
     }
 }
 
+impl<A: Arithmetic> Camera<A> {
+    /// Where its rays start.
+    pub fn eye(&self) -> &[A::Length; 3] {
+        &self.eye
+    }
+}
+
 impl<A: Arithmetic> View<A> {
     /// The view for pictures of `width` × `height` pixels.
     pub fn new(camera: &Camera<A>, width: u16, height: u16) -> Self {

@@ -34,6 +34,8 @@ mod group;
 mod instance;
 mod light;
 mod material;
+mod parts;
+mod rules;
 mod selection;
 mod shapes;
 mod texture;
@@ -49,6 +51,8 @@ pub use group::Group;
 pub use instance::Instance;
 pub use light::{Falloff, Light, LightSpec};
 pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
+pub use parts::Parts;
+pub use rules::Rules;
 pub use selection::Selection;
 pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;
@@ -61,176 +65,13 @@ pub(crate) use area_light::Form;
 pub(crate) use light::{Incident, Source};
 
 use crate::gather::Indirect;
-use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
-use crate::octree::Octree;
-use crate::shape::{Cone, Cuboid, Cylinder, Disc, MaterialId, Operand, Plane, Polygon};
-use crate::shape::{PolygonEdge, SmoothTriangle, Solid, Sphere, Triangle};
+use crate::math::{Arithmetic, Rgb};
+use crate::shape::MaterialId;
 use uses::has;
 
 /// The ambient irradiance E_amb divided by π, the same in the whole scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Ambient<A: Arithmetic>(pub Rgb<A::Radiance>);
-
-/// Where the classic programs differ (see the crate's documentation of the model).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rules<A: Arithmetic> {
-    /// Mirrored and transmitted radiance is multiplied by the cosine of its direction, as the
-    /// course does; Whitted, NFF and most others don't.
-    pub specular_cosine: bool,
-    /// Phong's highlight is multiplied by cos(N, L), as the course does.
-    pub highlight_cosine: bool,
-    /// A transmitting surface sends a reflection ray even where k_sg is 0 (the rule behind the
-    /// published ray counts of the Standard Procedural Databases).
-    pub transmitters_reflect: bool,
-    /// Total internal reflection carries k_sg alone, as in the course, not k_sg + k_tg.
-    pub lossy: bool,
-    /// A ray is sent if the largest channel of the product of the coefficients down the tree
-    /// is at least this.
-    pub cutoff: A::Weight,
-}
-
-impl<A: Arithmetic> Rules<A> {
-    /// The course's own form, and a cut-off of 1/255.
-    pub const COURSE: Self = Self {
-        specular_cosine: true,
-        highlight_cosine: true,
-        transmitters_reflect: false,
-        lossy: false,
-        cutoff: A::CUTOFF,
-    };
-
-    /// Whitted's form: no specular cosine, a highlight of its own.
-    pub const WHITTED: Self =
-        Self { specular_cosine: false, highlight_cosine: false, ..Self::COURSE };
-
-    /// The rules of the Neutral File Format's databases: Whitted's, without a cut-off.
-    pub const NFF: Self =
-        Self { transmitters_reflect: true, cutoff: A::NO_WEIGHT, ..Self::WHITTED };
-}
-
-for_each_arithmetic! {
-    impl Rules<A> {
-        /// [`COURSE`](Self::COURSE) with another cut-off.
-        ///
-        /// # Panics
-        /// A cut-off that isn't in 0 to 1.
-        pub const fn with_cutoff(cutoff: f64) -> Self {
-            match Self::try_with_cutoff(cutoff) {
-                Some(rules) => rules,
-                None => panic!("the cut-off is 0 to 1"),
-            }
-        }
-
-        /// [`COURSE`](Self::COURSE) with another cut-off; `None` where it isn't in 0 to 1.
-        pub const fn try_with_cutoff(cutoff: f64) -> Option<Self> {
-            if !(cutoff >= 0.0 && cutoff <= 1.0) {
-                return None;
-            }
-            match make::weight(cutoff) {
-                Some(cutoff) => Some(Self { cutoff, ..Self::COURSE }),
-                None => None,
-            }
-        }
-    }
-}
-
-/// What a scene is put together from. Shapes are numbered through in the order of the fields,
-/// those of each instance after each other, planes last; where two are hit at the same distance,
-/// the lower number counts.
-#[derive(Clone, Copy, Debug)]
-pub struct Parts<'a, A: Arithmetic> {
-    /// Spheres.
-    pub spheres: &'a [Sphere<A>],
-    /// Flat triangles.
-    pub triangles: &'a [Triangle<A>],
-    /// Triangles with a normal at each corner.
-    pub smooth_triangles: &'a [SmoothTriangle<A>],
-    /// Convex polygons.
-    pub polygons: &'a [Polygon<A>],
-    /// The edges of all polygons.
-    pub edges: &'a [PolygonEdge<A>],
-    /// Texture coordinates of the triangles, then of the smooth triangles, in their order; none for
-    /// those beyond its end.
-    pub uvs: &'a [TriangleUv],
-    /// Boxes along the axes.
-    pub cuboids: &'a [Cuboid<A>],
-    /// Discs.
-    pub discs: &'a [Disc<A>],
-    /// Cylinders.
-    pub cylinders: &'a [Cylinder<A>],
-    /// Cones.
-    pub cones: &'a [Cone<A>],
-    /// Solids of several shapes.
-    pub solids: &'a [Solid<A>],
-    /// The operands of all solids.
-    pub operands: &'a [Operand<A>],
-    /// Groups of shapes, placed. They lie outside the octree, each in a bounding sphere: a short
-    /// list.
-    pub instances: &'a [Instance<'a, A>],
-    /// Infinite planes; they lie outside the octree.
-    pub planes: &'a [Plane<A>],
-    /// The octree over all shapes but instances and planes. Without one every ray tests every shape, which is
-    /// quicker for fewer than ten.
-    pub tree: Option<Octree<'a, A>>,
-    /// Materials, by the index that shapes give.
-    pub materials: &'a [Material<A>],
-    /// What materials' surfaces are coloured and bent by.
-    pub textures: &'a [Texture<'a, A>],
-    /// What absorbs light before and behind surfaces.
-    pub absorptions: &'a [Absorption<A>],
-    /// Lights.
-    pub lights: &'a [Light<A>],
-    /// Lights with an area, numbered after the others.
-    pub area_lights: &'a [AreaLight<A>],
-    /// The fans of all area lights that are polygons.
-    pub light_corners: &'a [FanCorner<A>],
-    /// Where in its part of an area light a shadow ray goes: through the middle, or at random,
-    /// given a seed. The same seed gives the same picture on every machine.
-    pub light_jitter: Option<u16>,
-    /// Which lights a point asks.
-    pub selection: Selection<A>,
-    /// The ambient irradiance.
-    pub ambient: Ambient<A>,
-    /// What surfaces send each other, instead of the ambient term.
-    pub indirect: Indirect<'a, A>,
-    /// What rays see that hit nothing.
-    pub background: Background<A>,
-    /// Where the classic programs differ.
-    pub rules: Rules<A>,
-}
-
-impl<A: Arithmetic> Parts<'_, A> {
-    /// Nothing, in the dark: the base for `Parts { spheres: …, ..Parts::EMPTY }`.
-    pub const EMPTY: Self = Self {
-        spheres: &[],
-        triangles: &[],
-        smooth_triangles: &[],
-        polygons: &[],
-        edges: &[],
-        cuboids: &[],
-        discs: &[],
-        cylinders: &[],
-        cones: &[],
-        solids: &[],
-        operands: &[],
-        instances: &[],
-        planes: &[],
-        tree: None,
-        materials: &[],
-        textures: &[],
-        uvs: &[],
-        absorptions: &[],
-        lights: &[],
-        area_lights: &[],
-        light_corners: &[],
-        light_jitter: None,
-        selection: Selection::All,
-        ambient: Ambient([A::BLACK; 3]),
-        indirect: Indirect::None,
-        background: Background::BLACK,
-        rules: Rules::COURSE,
-    };
-}
 
 /// A scene that has been checked: what rays are traced in.
 ///

@@ -20,6 +20,7 @@
 use super::light::Source;
 use super::{Background, Falloff, Instance, Parts, Selection, Shadow, Shapes};
 use crate::math::{Arithmetic, Rgb};
+use crate::trace::FEW;
 
 /// Anything.
 pub const ALL: u64 = u64::MAX;
@@ -116,6 +117,8 @@ pub const COLORED_LIGHTS: u64 = 1 << 36;
 pub const COLORED_RAYS: u64 = 1 << 37;
 /// Spheres that show their inside alone.
 pub const INSIDES: u64 = 1 << 38;
+/// More spheres than have their directions remembered, and no octree.
+pub const MANY_SPHERES: u64 = 1 << 39;
 
 // The samplings count down from the last bit. No part of a scene uses them: whoever tailors a scene
 // adds what its pictures are sampled by, see `Sampling::uses`.
@@ -212,6 +215,7 @@ impl<A: Arithmetic> Shapes<'_, A> {
             | bit(!self.solids.is_empty(), SOLIDS)
             | bit(caps, CAPS)
             | bit(self.tree.is_some(), TREE)
+            | bit(self.spheres.len() > FEW && self.tree.is_none(), MANY_SPHERES)
             | self.uses_of_spheres()
     }
 

@@ -22,7 +22,7 @@ mod smooth_triangle;
 mod solid;
 mod sphere;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 mod triangle;

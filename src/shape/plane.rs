@@ -133,6 +133,38 @@ impl<A: Arithmetic> Plane<A> {
     }
 }
 
+impl<A: Arithmetic> Plane<A> {
+    /// The mirror image of a ray that meets it at `p`, `t` away, and where rays start that go back:
+    /// what [`Arithmetic::reflect`] and [`Arithmetic::leave`] give, of which nothing but a sign is left
+    /// where the plane lies across an axis.
+    #[inline(always)]
+    pub(crate) fn back<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        surface: &Surface<A>,
+        p: &[A::Length; 3],
+        t: A::Length,
+    ) -> ([A::Unit; 3], [A::Length; 3]) {
+        let axis = self.axis::<USES>();
+        if axis >= 3 {
+            return (
+                A::reflect(&ray.direction, &surface.normal, -surface.cosine),
+                A::leave(p, &surface.geometric, t),
+            );
+        }
+        let (mut mirror, mut start) = (ray.direction, *p);
+        let step = A::clearance(p, t);
+        let step = if surface.behind { -step } else { step };
+        for i in 0..3 {
+            if i == usize::from(axis) {
+                mirror[i] = -mirror[i];
+                start[i] = start[i] + step;
+            }
+        }
+        (mirror, start)
+    }
+}
+
 /// All that lies behind it.
 impl<A: Arithmetic> Convex<A> for Plane<A> {
     fn chord(&self, ray: &Ray<A>, _: &A::Coarse) -> Option<Chord<A>> {

@@ -98,6 +98,11 @@ impl<A: Arithmetic> Sphere<A> {
         self.center
     }
 
+    /// The radius and what is made of it.
+    pub(crate) fn bound(&self) -> &A::Radius {
+        &self.radius
+    }
+
     /// The radius, not negative.
     pub fn radius(&self) -> A::Length {
         A::radius(&self.radius)
@@ -129,7 +134,7 @@ impl<A: Arithmetic> Convex<A> for Sphere<A> {
 
 impl<A: Arithmetic> Sphere<A> {
     #[inline(always)]
-    fn shows_inside_only<const USES: u64>(&self) -> bool {
+    pub(crate) fn shows_inside_only<const USES: u64>(&self) -> bool {
         has(USES, uses::INSIDES) && self.material.inside_only()
     }
 
@@ -145,6 +150,17 @@ impl<A: Arithmetic> Sphere<A> {
         if !A::may_hit(coarse, &self.center, &self.radius, limit) {
             return None;
         }
+        self.meet_likely::<USES>(ray, inwards, limit)
+    }
+
+    /// The same for a ray that probably meets it.
+    #[inline(always)]
+    pub(crate) fn meet_likely<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        inwards: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
         let c = sub(&self.center, &ray.origin);
         let t = A::project(&c, &ray.direction);
         let leg2 = A::leg2(&self.radius, &c, t, &ray.direction)?;
@@ -173,14 +189,23 @@ impl<A: Arithmetic> Sphere<A> {
         inwards: bool,
         limit: A::Length,
     ) -> bool {
+        A::may_hit(coarse, &self.center, &self.radius, limit)
+            && self.blocks_likely::<USES>(ray, inwards, limit)
+    }
+
+    /// The same for a ray that probably meets it.
+    #[inline(always)]
+    pub(crate) fn blocks_likely<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        inwards: bool,
+        limit: A::Length,
+    ) -> bool {
         if inwards || self.shows_inside_only::<USES>() {
-            return match self.meet::<USES>(ray, coarse, inwards, limit) {
+            return match self.meet_likely::<USES>(ray, inwards, limit) {
                 Some(meeting) => meeting.distance < limit,
                 None => false,
             };
-        }
-        if !A::may_hit(coarse, &self.center, &self.radius, limit) {
-            return false;
         }
         let c = sub(&self.center, &ray.origin);
         let t = A::project(&c, &ray.direction);

@@ -2,12 +2,13 @@
 
 use super::area::{Point, areas};
 use super::select::selected;
+use super::sight::Sights;
 use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, each, grey, has};
 use crate::scene::{Incident, Light, Material, Rules, Scene, Selection};
-use crate::shape::{Ray, Surface};
+use crate::shape::{Leaving, Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 
 /// A point being shaded.
@@ -25,6 +26,8 @@ pub(super) struct Shading<'s, A: Arithmetic> {
     pub(super) highlights: bool,
     /// Where random numbers come from: another one for each point that is shaded.
     pub(super) key: u32,
+    /// What can be seen from the lights, if that is known.
+    pub(super) sights: Option<&'s Sights<A>>,
 }
 
 /// Adds what the point sends back along the ray of each light's direct light.
@@ -62,6 +65,13 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Radiance>> {
+    let sight = at.sights.and_then(|sights| sights.light(number));
+    // Within an opaque sphere no light from outside arrives.
+    let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
+    let Leaving { shape, inwards, .. } = at.shadow.leaving;
+    if inwards && opaque && sight.is_some_and(|sight| sight.hides_from(shape)) {
+        return None;
+    }
     let Incident { direction, distance, irradiance } = light.at::<USES>(&at.shadow.origin)?;
     let cosine = A::cosine(&at.surface.normal, &direction);
     if cosine <= A::NO_WEIGHT {
@@ -76,7 +86,7 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     }
     at.shadow.direction = direction;
     tally.ray(RayKind::Shadow, at.depth, &at.shadow, at.weight);
-    let Some(share) = visible(scene, &at.shadow, distance, number, scratch, tally) else {
+    let Some(share) = visible(scene, &at.shadow, distance, number, sight, scratch, tally) else {
         tally.shadowed(number, at.depth);
         return None;
     };
@@ -91,7 +101,6 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
         factor = rgb(&factor, &light.color, A::weight);
     }
     let factor = rgb(&factor, &grey::<A, USES>(at.weight), A::weight);
-    let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
     let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
     let radiance = factor.map(|f| A::dim(irradiance, f));
     tally.term::<A>(Term::Direct { light: number }, &radiance);

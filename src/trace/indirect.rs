@@ -70,7 +70,9 @@ fn virtual_lights<A: Arithmetic, T: Tally, const USES: u64>(
         tally.ray(RayKind::Shadow, spot.depth, &ray, &[A::FULL; 3]);
         // Not quite to the light, which lies on a surface.
         let end = distance - A::scale(distance, A::fraction(32));
-        let Some(share) = visible(scene, &ray, end, NO_LIGHT, scratch, tally) else { continue };
+        let Some(share) = visible(scene, &ray, end, NO_LIGHT, None, scratch, tally) else {
+            continue;
+        };
         let cosines = A::weight(here, there);
         let factor = rgb(&light.color(), &share, A::weight).map(|c| A::weight(c, cosines));
         sum = rgb(&sum, &factor.map(|f| A::dim(irradiance, f)), A::gather);

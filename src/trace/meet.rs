@@ -42,6 +42,22 @@ pub(super) struct Place<A: Arithmetic> {
     pub(super) material: MaterialId,
     /// The point in the space where patterns lie: that of the scene, or of the group.
     pub(super) local: [A::Length; 3],
+    /// The mirror image of the ray about the shading normal.
+    pub(super) mirror: [A::Unit; 3],
+    /// Where rays start that go back from the surface.
+    pub(super) outside: [A::Length; 3],
+}
+
+impl<A: Arithmetic> Place<A> {
+    #[inline(always)]
+    fn new(
+        Found { surface, material, local }: Found<A>,
+        (ray, meeting, p): (&Ray<A>, &Meeting<A>, &[A::Length; 3]),
+    ) -> Self {
+        let mirror = A::reflect(&ray.direction, &surface.normal, -surface.cosine);
+        let outside = A::leave(p, &surface.geometric, meeting.distance);
+        Self { surface, material, local, mirror, outside }
+    }
 }
 
 /// The surface and material where the ray met the shape of this number; puts `p` back on it.
@@ -56,32 +72,40 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     let (parts, shapes) = (&scene.parts, &scene.shapes);
     if let Some(sphere) = shapes.spheres.get(id as usize) {
         let surface = sphere.surface(ray, meeting, p);
-        Some(Place { surface, material: sphere.material(), local: *p })
+        let found = Found { surface, material: sphere.material(), local: *p };
+        Some(Place::new(found, (ray, meeting, p)))
     } else if has(USES, uses::PLANES)
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
         let surface = plane.surface_seen::<USES>(ray);
-        Some(Place { surface, material: plane.material(), local: *p })
+        let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
+        Some(Place { surface, material: plane.material(), local: *p, mirror, outside })
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
-        let (place, point) = surface_in_instance(scene, id, *ray, *meeting)?;
+        let (found, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;
-        Some(place)
+        Some(Place::new(found, (ray, meeting, p)))
     } else {
-        let (surface, material, point) =
-            surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
-        *p = point;
-        Some(Place { surface, material, local: point })
+        let found = surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
+        *p = found.local;
+        Some(Place::new(found, (ray, meeting, p)))
     }
 }
 
-/// The same in an instance.
+/// What is found by a call: the surface, its material, and the point in the space of the shape.
+struct Found<A: Arithmetic> {
+    surface: Surface<A>,
+    material: MaterialId,
+    local: [A::Length; 3],
+}
+
+/// The same in an instance, with the point in the scene.
 #[inline(never)]
 fn surface_in_instance<A: Arithmetic, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     id: u32,
     ray: Ray<A>,
     meeting: Meeting<A>,
-) -> Option<(Place<A>, [A::Length; 3])> {
+) -> Option<(Found<A>, [A::Length; 3])> {
     let mut first = scene.bounded;
     for instance in scene.parts.instances {
         let count = instance.group().count;
@@ -97,11 +121,11 @@ fn surface_in_instance<A: Arithmetic, const USES: u64>(
         let local = A::along(&ray.origin, distance, &ray.direction);
         let meeting = Meeting { distance, ..meeting };
         let shapes = &instance.group().shapes;
-        let (surface, material, local) =
+        let Found { surface, material, local } =
             surface_of_other::<A, USES>(shapes, index, *ray, meeting, local)?;
         let surface = instance.turn(surface);
         let material = instance.material().unwrap_or(material);
-        return Some((Place { surface, material, local }, instance.outwards(&local)));
+        return Some((Found { surface, material, local }, instance.outwards(&local)));
     }
     None
 }
@@ -114,9 +138,9 @@ fn surface_of_other<A: Arithmetic, const USES: u64>(
     ray: Ray<A>,
     meeting: Meeting<A>,
     mut p: [A::Length; 3],
-) -> Option<(Surface<A>, MaterialId, [A::Length; 3])> {
+) -> Option<Found<A>> {
     with_shape!(USES, shapes, id, shape => {
         let surface = shape.surface(&ray, &meeting, &mut p);
-        Some((surface, shape.material_at(&meeting), p))
+        Some(Found { surface, material: shape.material_at(&meeting), local: p })
     }, None)
 }

@@ -1,6 +1,7 @@
 //! The nearest hit along a ray.
 
 use super::meet::{meet, meet_any};
+use super::sight::{Sight, are_few};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
@@ -133,12 +134,14 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
     best
 }
 
-/// The nearest hit in front of `limit`; the lowest number among equals.
+/// The nearest hit in front of `limit`; the lowest number among equals. `sight` is what can be seen
+/// from where the ray starts, if that is known.
 #[inline(always)]
 pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
+    sight: Option<&Sight<A>>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Hit<A>> {
@@ -158,16 +161,30 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let Leaving { shape: left, inwards, .. } = ray.leaving;
-        let (outwards, inwards) = if inwards { (u32::MAX, left) } else { (left, u32::MAX) };
         let count = shapes.spheres.len() as u32;
+        // The sphere that the ray leaves apart from the rest, which then needn't know.
+        if inwards && let Some(sphere) = shapes.spheres.get(left as usize) {
+            best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
+        }
         let mut id = 0;
-        for sphere in shapes.spheres {
-            tally.test();
-            if id != outwards {
-                let from = id == inwards;
-                best.take(sphere.meet::<USES>(ray, &coarse, from, best.distance), id);
+        if let Some(sight) = sight
+            && are_few(scene)
+        {
+            for (sphere, cone) in shapes.spheres.iter().zip(&sight.cones) {
+                tally.test();
+                if id != left && A::in_cone(cone, &ray.direction) {
+                    best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
+                }
+                id += 1;
             }
-            id += 1;
+        } else {
+            for sphere in shapes.spheres {
+                tally.test();
+                if id != left {
+                    best.take(sphere.meet::<USES>(ray, &coarse, false, best.distance), id);
+                }
+                id += 1;
+            }
         }
         if has_others(USES) && count != scene.bounded {
             best = search::<A, T, USES>(shapes, count..scene.bounded, *ray, best, walk, tally);

@@ -9,6 +9,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::surface_at;
 use super::nearest::{Hit, nearest};
+use super::sight::may_be_few;
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
@@ -24,7 +25,6 @@ pub(super) struct Path<A: Arithmetic> {
     /// The product of the coefficients down the tree.
     weight: Rgb<A::Weight>,
     depth: u8,
-    kind: RayKind,
 }
 
 impl<A: Arithmetic> Path<A> {
@@ -36,8 +36,18 @@ impl<A: Arithmetic> Path<A> {
         },
         weight: [A::NO_WEIGHT; 3],
         depth: 0,
-        kind: RayKind::Primary,
     };
+
+    /// The same, of a scene that uses no more than its type says: what is always the same needn't
+    /// be carried along.
+    #[inline(always)]
+    fn tailored<const USES: u64>(mut self) -> Self {
+        self.weight = grey::<A, USES>(&self.weight);
+        if !has(USES, uses::SOLIDS) {
+            self.ray.leaving.part = 0;
+        }
+        self
+    }
 }
 
 /// From the key of a ray to that of the next: odd, so that all differ.
@@ -111,7 +121,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, &mut work.scratch.walk, tally)
+        nearest(self.scene, ray, A::FAR, None, &mut work.scratch.walk, tally)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -123,7 +133,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow(ray, work, tally).0
+        self.follow(ray, false, work, tally).0
+    }
+
+    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene.
+    #[inline(always)]
+    pub(crate) fn seen<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> Rgb<A::Radiance> {
+        self.follow(ray, true, work, tally).0
     }
 
     /// The radiance that a ray which gathers irradiance finds, and how far away.
@@ -134,7 +155,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow(ray, work, tally)
+        self.follow(ray, false, work, tally)
     }
 
     #[inline(always)]
@@ -142,84 +163,101 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         has(USES, uses::IRRADIANCE_CACHE) && self.gathering
     }
 
-    /// The radiance along a ray, and, for one that gathers, the distance to what it hits.
+    /// The background's radiance in a direction, if it counts.
+    #[inline(always)]
+    fn background(&self, direction: &[A::Unit; 3]) -> Rgb<A::Radiance> {
+        if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) {
+            [A::BLACK; 3]
+        } else {
+            self.scene.parts.background.radiance::<USES>(direction)
+        }
+    }
+
+    /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
+    /// a ray from the eye that `work` has looked from.
     #[inline]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
+        seen: bool,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        let kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
-        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, kind };
+        let mut kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
+        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1 };
         let mut first = A::FAR;
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
         // A number for each ray of the tree, in the order in which they are traced.
         let mut key = self.key;
+        tally.ray(kind, path.depth, &path.ray, &path.weight);
+        // A search of its own for the first ray: a good part of the tracing is done by then.
+        let eye = if may_be_few::<USES>() && seen { Some(&work.sights.eye) } else { None };
+        let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
+        if found.is_none() {
+            let radiance = self.background(&path.ray.direction);
+            tally.term::<A>(Term::Background, &radiance);
+            return (radiance, first);
+        }
         loop {
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
-            tally.ray(path.kind, path.depth, &path.ray, &path.weight);
-            let more = match nearest(self.scene, &path.ray, A::FAR, &mut work.scratch.walk, tally) {
-                None if has(USES, uses::TERMS) && !self.terms.has(Terms::BACKGROUND) => false,
+            let next = match found {
                 None => {
-                    let background =
-                        self.scene.parts.background.radiance::<USES>(&path.ray.direction);
+                    let background = self.background(&path.ray.direction);
                     let weight = grey::<A, USES>(&path.weight);
                     let radiance = rgb(&background, &weight, A::dim);
                     tally.term::<A>(Term::Background, &radiance);
                     sum = rgb(&sum, &radiance, A::gather);
-                    false
+                    None
                 }
                 Some(hit) => {
-                    tally.hit::<A>(path.kind, hit.shape, hit.distance);
-                    if has(USES, uses::IRRADIANCE_CACHE) && path.kind == RayKind::Ambient {
+                    tally.hit::<A>(kind, hit.shape, hit.distance);
+                    if has(USES, uses::IRRADIANCE_CACHE) && kind == RayKind::Ambient {
                         first = hit.distance;
                     }
-                    self.shade(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
+                    self.shade(&mut path, &hit, (key, seen), &mut sum, work, &mut waiting, tally)
                 }
             };
-            if more {
-                continue;
-            }
-            if waiting == 0 {
-                return (sum, first);
-            }
-            waiting -= 1;
-            match work.waiting.get(waiting) {
-                Some(next) => path = *next,
-                None => return (sum, first),
-            }
+            kind = match next {
+                Some(kind) => kind,
+                None if waiting == 0 => return (sum, first),
+                None => {
+                    waiting -= 1;
+                    match work.waiting.get(waiting) {
+                        Some(next) => path = next.tailored::<USES>(),
+                        None => return (sum, first),
+                    }
+                    RayKind::Transmission
+                }
+            };
+            tally.ray(kind, path.depth, &path.ray, &path.weight);
+            found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
         }
     }
 
-    /// Adds the terms of a hit; turns `path` into the next ray to follow and says whether there is
-    /// one. A second has to wait.
+    /// Adds the terms of a hit; turns `path` into the next ray to follow, if there is one, and says
+    /// of which kind it is. Of two, the one that passes through has to wait.
     #[inline(always)]
     #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
     fn shade<T: Tally, const MAX_DEPTH: usize>(
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
-        key: u32,
+        (key, seen): (u32, bool),
         sum: &mut Rgb<A::Radiance>,
         work: &mut Work<A, MAX_DEPTH>,
         waiting: &mut usize,
         tally: &mut T,
-    ) -> bool {
+    ) -> Option<RayKind> {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         let ray = &path.ray;
-        let Some(place) = surface_at(scene, hit.shape, ray, &meeting, &mut p) else {
-            return false;
-        };
-        let mut surface = place.surface;
-        let Some(material) = scene.material_at(place.material, &place.local) else {
-            return false;
-        };
+        let place = surface_at(scene, hit.shape, ray, &meeting, &mut p)?;
+        let (mut surface, mut mirror) = (place.surface, place.mirror);
+        let material = scene.material_at(place.material, &place.local)?;
 
         // A textured material is one made for the point, so that nothing below need know.
         let made;
@@ -234,6 +272,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             && let Some(texture) = material.bump()
         {
             surface = bumped(scene, texture, surface, hit.shape, place.local, ray.direction);
+            mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         }
         if has(USES, uses::ABSORPTION)
             && let Some(absorption) = material.absorption()
@@ -261,9 +300,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             *sum = rgb(sum, &radiance, A::gather);
         }
 
-        let mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         let outside = Ray {
-            origin: A::leave(&p, &surface.geometric, hit.distance),
+            origin: place.outside,
             direction: mirror,
             leaving: Leaving::back(hit.shape, &surface),
         };
@@ -300,17 +338,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             depth: path.depth,
             highlights: !self.gathers(),
             key,
+            sights: seen.then_some(&work.sights),
         };
         direct(scene, shading, sum, &mut work.scratch, tally);
 
         if path.depth >= self.depth {
-            return false;
+            return None;
         }
         let rules = &scene.parts.rules;
         path.depth += 1;
         let mut reflected = grey::<A, USES>(&material.reflection);
         let passed = grey::<A, USES>(&material.transmission);
-        let mut passes = false;
+        let mut next = None;
         let glass = has(USES, uses::TRANSMISSION) && material.transmits;
         let fresnel = has(USES, uses::FRESNEL) && material.fresnel;
         if glass || fresnel {
@@ -337,8 +376,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                             leaving: Leaving::through(hit.shape, &surface),
                         };
                         path.weight = weight;
-                        path.kind = RayKind::Transmission;
-                        passes = true;
+                        next = Some(RayKind::Transmission);
                     }
                 }
                 // Nothing gets through: the mirror ray carries both, unless the scene says not. By
@@ -361,17 +399,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             // An interpolated normal can mirror a ray into the surface.
             let outwards = !surface.smooth || A::dot(&mirror, &surface.geometric) > A::NO_UNIT;
             if largest(&weight) >= rules.cutoff && outwards {
-                if passes && let Some(place) = work.waiting.get_mut(*waiting) {
+                if next.is_some()
+                    && let Some(place) = work.waiting.get_mut(*waiting)
+                {
                     *place = *path;
                     *waiting += 1;
                 }
                 path.ray = outside;
                 path.weight = weight;
-                path.kind = RayKind::Reflection;
-                return true;
+                next = Some(RayKind::Reflection);
             }
         }
-        passes
+        next
     }
 }
 

@@ -167,7 +167,7 @@ fn given<A: Arithmetic, T: Tally, const USES: u64>(
             let mut ray = at.shadow;
             ray.direction = incident.direction;
             tally.ray(RayKind::Shadow, at.depth, &ray, &at.weight);
-            match visible(scene, &ray, incident.distance, number, scratch, tally) {
+            match visible(scene, &ray, incident.distance, number, None, scratch, tally) {
                 None => {
                     tally.shadowed(number, at.depth);
                     black

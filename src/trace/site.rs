@@ -46,8 +46,8 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
         let surface = place.surface;
         let material = self.scene.material_at(place.material, &place.local)?;
         let outside = Ray {
-            origin: A::leave(&position, &surface.geometric, hit.distance),
-            direction: A::reflect(&ray.direction, &surface.normal, -surface.cosine),
+            origin: place.outside,
+            direction: place.mirror,
             leaving: Leaving::back(hit.shape, &surface),
         };
         let mut next = None;

@@ -8,6 +8,7 @@
 use super::detail::absorbed;
 use super::meet::{meet_any, surface_at};
 use super::nearest::nearest;
+use super::sight::{Sight, are_few};
 use super::work::{NO_SHAPE, Scratch};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
@@ -140,12 +141,14 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
     None
 }
 
-/// The number of any shape along the ray nearer than `limit`.
+/// The number of any shape along the ray nearer than `limit`. `sight` is what can be seen from where
+/// the ray ends, if that is known.
 #[inline(always)]
 fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
+    sight: Option<&Sight<A>>,
     (walk, last): (&mut WalkStack<A>, &mut u32),
     tally: &mut T,
 ) -> Option<u32> {
@@ -153,13 +156,36 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
+        let Leaving { shape: left, inwards, .. } = ray.leaving;
+        // The sphere that the ray leaves apart from the rest, which then needn't know.
+        if inwards
+            && let Some(sphere) = shapes.spheres.get(left as usize)
+            && sphere.blocks_likely::<USES>(ray, true, limit)
+        {
+            return Some(left);
+        }
         let mut id = 0;
-        for sphere in shapes.spheres {
-            tally.test();
-            if blocks::<A, USES>(sphere, id, ray, &coarse, limit) {
-                return Some(id);
+        if let Some(sight) = sight
+            && are_few(scene)
+        {
+            for (sphere, cone) in shapes.spheres.iter().zip(&sight.cones) {
+                tally.test();
+                if id != left
+                    && A::in_cone(cone, &ray.direction)
+                    && sphere.blocks_likely::<USES>(ray, false, limit)
+                {
+                    return Some(id);
+                }
+                id += 1;
             }
-            id += 1;
+        } else {
+            for sphere in shapes.spheres {
+                tally.test();
+                if id != left && sphere.blocks::<USES>(ray, &coarse, false, limit) {
+                    return Some(id);
+                }
+                id += 1;
+            }
         }
     }
     if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
@@ -192,13 +218,14 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
 }
 
 /// How much of the light of this number comes along the shadow ray from nearer than `limit`; `None`
-/// for nothing.
+/// for nothing. `sight` is what can be seen from the light, if that is known.
 #[inline(always)]
 pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     scene: &Scene<'_, A, USES>,
     ray: &Ray<A>,
     limit: A::Length,
     light: u16,
+    sight: Option<&Sight<A>>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Weight>> {
@@ -206,7 +233,7 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, NO_SHAPE, walk, tally);
     }
-    match occluder(scene, ray, limit, (walk, last), tally) {
+    match occluder(scene, ray, limit, sight, (walk, last), tally) {
         Some(shape) => {
             tally.hit::<A>(RayKind::Shadow, shape, limit);
             None
@@ -230,11 +257,11 @@ pub(super) fn visible_beside<A: Arithmetic, T: Tally, const USES: u64>(
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, body, walk, tally);
     }
-    let mut found = occluder(scene, ray, limit, (&mut *walk, last), tally);
+    let mut found = occluder(scene, ray, limit, None, (&mut *walk, last), tally);
     if found == Some(body) {
         // The ray ends on the body, where rounding can see it a little nearer; whatever else is in
         // the way is nearer still.
-        found = nearest(scene, ray, limit, walk, tally).map(|hit| hit.shape);
+        found = nearest(scene, ray, limit, None, walk, tally).map(|hit| hit.shape);
         found = found.filter(|&shape| shape != body);
     }
     match found {
@@ -259,7 +286,7 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
     let mut share = [A::FULL; 3];
     let mut left = limit;
     for _ in 0..MAX_SHEETS {
-        let Some(hit) = nearest(scene, &ray, left, walk, tally) else { return Some(share) };
+        let Some(hit) = nearest(scene, &ray, left, None, walk, tally) else { return Some(share) };
         if hit.shape == body {
             return Some(share);
         }

@@ -1,16 +1,21 @@
 //! The memory a tracer writes: all there is, bounded by MAX_DEPTH.
 
 use super::radiance::Path;
+use super::sight::Sights;
 use crate::math::Arithmetic;
 use crate::octree::WalkStack;
+use crate::scene::Scene;
 
 /// The working memory of a tracer: a ray waiting for each level of the tree, and the octree
-/// walk's stack, and what last stood before each of eight lights. Initialised once; nothing is cleared
+/// walk's stack, what last stood before each of eight lights, and in which directions the first few
+/// spheres are seen from the eye and from two lights. Initialised once; nothing is cleared
 /// between rays.
 #[derive(Clone, Debug)]
 pub struct Work<A: Arithmetic, const MAX_DEPTH: usize> {
     pub(super) waiting: [Path<A>; MAX_DEPTH],
     pub(super) scratch: Scratch<A>,
+    /// What can be seen in the scene that a renderer traces with this memory.
+    pub(super) sights: Sights<A>,
 }
 
 /// No shape's number.
@@ -57,9 +62,22 @@ impl<A: Arithmetic, const MAX_DEPTH: usize> Work<A, MAX_DEPTH> {
         }
     }
 
+    /// Looks around from an eye and from the lights: what [`Tracer::seen`](super::Tracer::seen) asks.
+    pub(crate) fn look<const USES: u64>(
+        &mut self,
+        scene: &Scene<'_, A, USES>,
+        eye: &[A::Length; 3],
+    ) {
+        self.sights.look(scene, eye);
+    }
+
     /// Memory for trees of rays up to `MAX_DEPTH` deep, the camera's ray being depth 1.
     pub const fn new() -> Self {
-        Self { waiting: [const { Path::NONE }; MAX_DEPTH], scratch: Scratch::new() }
+        Self {
+            waiting: [const { Path::NONE }; MAX_DEPTH],
+            scratch: Scratch::new(),
+            sights: Sights::NONE,
+        }
     }
 }
 

@@ -8,11 +8,11 @@ use whitted_demo::frame;
 use whitted_demo::job::{Job, JobError};
 use whitted_demo::rebuild::{SHAPES, rebuild};
 
-use crate::elf;
-use crate::machine::{Log, MACHINES, Record};
+use crate::elf::{self, Sizes, sizes};
+use crate::machine::{Log, MACHINES, Record, built};
 use crate::oled;
 use crate::report::Report;
-use crate::shell::{boards, cargo, output};
+use crate::shell::{boards, cargo, output, root};
 
 /// A small frame takes a second or two; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(240);
@@ -20,9 +20,26 @@ const PATIENCE: Duration = Duration::from_secs(240);
 /// Two cores are to be quicker than one by this factor.
 pub(crate) const TWO_CORES: f64 = 1.8;
 
+/// A ray among SPD's 7,382 balls may cost so many times what one among 92 costs.
+const BALLS: f64 = 3.5;
+
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
-    report.check("baked: a scene baked by the build script, read in place", baked);
+    report
+        .check("baked: a scene baked by the build script, read in place", || baked("baked", None));
+    let name = "baked: the bathroom, its window an area light, irradiance records in flash";
+    report.check(name, || baked("source", None));
+    let lights = boards().join("baked/lights.toml");
+    let name = "baked: area lights of every form, a medium and a choice of lights";
+    report.check(name, || baked("source", Some(&lights)));
+    let surfaces = boards().join("baked/surfaces.toml");
+    let name = "baked: textures and bumps, groups, solids, virtual lights";
+    report.check(name, || baked("source", Some(&surfaces)));
+    check_balls(report);
+    oled::damaged(report);
+    crate::stm32::check(report);
+    crate::stack::check(report);
+    report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
         let jobs: Vec<Job> = Job::small().filter(|job| machine.carries(job)).collect();
         let name = format!("{} ({}) runs", machine.core, machine.machine);
@@ -52,6 +69,9 @@ pub(crate) fn check(report: &mut Report) {
             let name = format!("{}: a tree over {shapes} shapes is the host's", machine.core);
             report.check(&name, || rebuilt(&log, shapes).map(drop));
         }
+        report.check(&format!("{}: the frames' stack is within its bound", machine.core), || {
+            crate::stack::frames(&log, &jobs)
+        });
         for record in log.records("shared") {
             let name = record.get("job").unwrap_or("a job");
             report.check(&format!("{}: {name}, each a share", machine.core), || shared(record));
@@ -65,11 +85,75 @@ pub(crate) fn check(report: &mut Report) {
     }
 }
 
-/// The example that bakes its scene when it is built: the blob that it reads in place gives the
-/// host's picture.
-fn baked() -> Result<(), String> {
-    let said = output(&mut cargo(&boards().join("baked"), ["run", "-q", "--release"]))?;
-    if said.contains("same-as-host=true") { Ok(()) } else { Err(said) }
+/// The room's cache is filled, and its picture drawn, as on the host.
+fn room() -> Result<(), String> {
+    let said = output(&mut cargo(&boards().join("room"), ["run", "-q", "--release"]))?;
+    let of = |kind: &str| {
+        let line = said.lines().find_map(|line| line.strip_prefix(kind));
+        line.map(Record::new).ok_or_else(|| said.clone())
+    };
+    let (result, shown) = (of("result ")?, of("shown ")?);
+    let there = (result.get("checksum")?, result.number("records")?);
+    let drawn = whitted_demo::room::draw(|_| {});
+    let here = format!("{:016x}", drawn.checksum.value());
+    let (instructions, stack) = (shown.number("instructions")?, shown.number("stack")?);
+    println!("     {} records; {instructions} instructions, stack {stack} bytes", there.1);
+    if there == (&here, drawn.records as u64) {
+        Ok(())
+    } else {
+        Err(format!("{there:?}, on the host {here} and {} records", drawn.records))
+    }
+}
+
+/// The example that bakes its scene when it is built, of another scene if one is named: the blob
+/// that `baked` reads in place, or `source`'s Rust source, gives the host's picture. Instructions a ray.
+fn baked(program: &str, scene: Option<&Path>) -> Result<f64, String> {
+    let variable = if program == "source" { "WHITTED_SOURCE" } else { "WHITTED_SCENE" };
+    let command = |arguments: &[&str]| {
+        let mut command = cargo(&boards().join("baked"), arguments);
+        match scene {
+            Some(scene) => command.env(variable, scene),
+            None => command.env_remove(variable),
+        };
+        command
+    };
+    let build = ["build", "-q", "--release", "--bin", program, "--message-format=json"];
+    let firmware = built(&mut command(&build), program)?;
+    let Sizes { text, constants } = sizes(&firmware)?;
+    let said = output(&mut command(&["run", "-q", "--release", "--bin", program]))?;
+    let line = said.lines().find_map(|line| line.strip_prefix("result "));
+    let record = Record::new(line.ok_or_else(|| said.clone())?);
+    if record.get("same-as-host")? != "true" {
+        return Err(said);
+    }
+    let (instructions, rays) = (record.number("instructions")?, record.number("rays")?);
+    let stack = record.number("stack")?;
+    let each = instructions as f64 / rays as f64;
+    println!(
+        "     {instructions} instructions, {rays} rays, {each:.0} instructions a ray; stack {stack}; \
+         flash {} bytes, {constants} of them constants",
+        text + constants
+    );
+    Ok(each)
+}
+
+/// Thousands of shapes in the flash of a Pico, and what a ray costs against tens of them.
+fn check_balls(report: &mut Report) {
+    let spd = root().join("../shared/scenes/spd");
+    let file = |name: &str| spd.join(name).canonicalize();
+    let (Ok(few), Ok(many)) = (file("balls_s2.nff"), file("balls.nff")) else {
+        println!("     SPD's scenes are not beside the repository: balls are left out");
+        return;
+    };
+    let few = report.check("baked: SPD's balls_s2, 92 shapes", || baked("baked", Some(&few)));
+    let many = report.check("baked: SPD's balls, 7,382 shapes", || baked("baked", Some(&many)));
+    if let (Some(few), Some(many)) = (few, many) {
+        report.check("baked: a ray among thousands costs at most 3.5 times one among tens", || {
+            let times = many / few;
+            println!("     {times:.2} times");
+            if times <= BALLS { Ok(()) } else { Err(format!("{times:.2} times")) }
+        });
+    }
 }
 
 /// An image holds no software for double precision: no board computes in it, and one slip in a

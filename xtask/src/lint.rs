@@ -49,6 +49,24 @@ pub(crate) fn check(report: &mut Report) {
         let words = format!("clippy -q --no-default-features --features {features}");
         step(&name, &boards.join("pico"), &words, true);
     }
+    for chip in ["f411", "f405"] {
+        let words = format!("clippy -q --no-default-features --features {chip}");
+        step(&format!("clippy, stm32f4, {chip}"), &boards.join("stm32f4"), &words, true);
+    }
+    let bands = "clippy -q --package whitted-bands --all-targets";
+    step("clippy, bands", &boards, bands, true);
+    for board in ["pico-async", "microbit-v2"] {
+        step(&format!("clippy, {board}"), &boards.join(board), "clippy -q", true);
+    }
+    // It can't be run here: it is to link at least.
+    step("microbit-v2: it links", &boards.join("microbit-v2"), "build -q --release", false);
+    step("clippy, room", &boards.join("room"), "clippy -q", true);
+    // What people copy: its own workspace, and its own lock file, which must hold. It shares what
+    // the boards have built.
+    let template = root.join("template");
+    step("format, template", &template, "fmt --all --check", false);
+    step("clippy, template", &template, "clippy -q --locked --target-dir ../boards/target", true);
+    step("template: it links", &template, "build -q --locked --target-dir ../boards/target", false);
     for name in ["nopanic", "size"] {
         let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
         step(&format!("clippy, {name}"), &boards, &words, true);
@@ -61,6 +79,7 @@ pub(crate) fn check(report: &mut Report) {
 pub(crate) fn host_tests(report: &mut Report) {
     tests(report, "host tests", &root(), &["test", "--workspace", "--no-fail-fast"]);
     tests(report, "tests of demo", &boards(), &["test", "--package", "whitted-demo"]);
+    tests(report, "tests of bands", &boards(), &["test", "--package", "whitted-bands"]);
 }
 
 fn tests(report: &mut Report, name: &str, dir: &Path, args: &[&str]) {

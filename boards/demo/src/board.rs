@@ -17,8 +17,9 @@ use core::panic::PanicInfo;
 use semihosting::{print, println};
 
 use crate::counter::{self, Counter};
+use crate::depths;
 use crate::frame::{self, Watch};
-use crate::job::Job;
+use crate::job::{ArithName, Job};
 use crate::stack;
 
 /// Room for the command line: the firmware's path and a job for each scene.
@@ -52,25 +53,13 @@ impl Board {
 
     /// Draws the jobs of the command line, or else [`Job::small`], one result line each.
     pub fn draw_all(&mut self) {
-        let args = semihosting::experimental::env::args::<COMMAND_LINE>().ok();
-        // The first is the firmware's path.
-        let args = args.iter().flatten().skip(1).filter_map(Result::ok);
-        let mut any = false;
-        for arg in args {
-            any = true;
+        let any = for_each_word(|word| {
             #[cfg(feature = "counted")]
-            if let Some(shapes) = arg.strip_prefix("rebuild:").and_then(|n| n.parse().ok()) {
-                self.rebuild(shapes);
-                continue;
+            if let Some(shapes) = word.strip_prefix("rebuild:").and_then(|n| n.parse().ok()) {
+                return self.rebuild(shapes);
             }
-            match arg.parse() {
-                Ok(job) => self.draw(&job),
-                Err(error) => {
-                    println!("error {arg}: {error}");
-                    exit(false)
-                }
-            }
-        }
+            self.draw(&job(word));
+        });
         if !any {
             Job::small().for_each(|job| self.draw(&job));
         }
@@ -109,6 +98,28 @@ impl Board {
         );
     }
 
+    /// Draws the frame of [`depths`] with memory for each depth, and prints a line `depth …` about
+    /// each: the bytes of `Work` (`memory`), and of stack. In `f32` too, where the core computes it.
+    pub fn depths(&mut self) {
+        /// Each arithmetic is eight copies of the tracer, which take long to build.
+        const HERE: &[ArithName] =
+            if cfg!(target_abi = "eabihf") { &ArithName::ALL } else { &[ArithName::Fixed] };
+        for &arith in HERE {
+            for depths::Depth { depth, memory, draw } in depths::all(arith) {
+                let top = stack::paint();
+                let checksum = draw();
+                let stack = stack::used(top);
+                println!(
+                    "depth board={} arith={} depth={depth} checksum={:016x} memory={memory} \
+                     stack={stack}",
+                    self.name,
+                    arith.name(),
+                    checksum.value(),
+                );
+            }
+        }
+    }
+
     /// Draws on a display, then prints a line `shown …` with what that took, tracing included.
     pub fn shown(&mut self, draw: impl FnOnce()) {
         let top = stack::paint();
@@ -120,9 +131,49 @@ impl Board {
         println!("shown board={} instructions={instructions} stack={stack}", self.name);
     }
 
-    /// What the counter holds, as instructions of a nanosecond each.
-    fn instructions(&mut self) -> u64 {
+    /// Does something of the firmware's own and counts its instructions: 670 million at most, for
+    /// [`instructions`](Self::instructions) to add up.
+    pub fn counted<R>(&mut self, act: impl FnOnce() -> R) -> R {
+        self.counter.before();
+        let made = act();
+        self.counter.after();
+        made
+    }
+
+    /// The instructions counted since this was last asked.
+    pub fn instructions(&mut self) -> u64 {
         self.counter.take() * 1_000_000 / u64::from(self.clock_khz)
+    }
+}
+
+/// Does something with each word of the command line; whether there are any.
+fn for_each_word(mut each: impl FnMut(&str)) -> bool {
+    let args = semihosting::experimental::env::args::<COMMAND_LINE>().ok();
+    // The first is the firmware's path.
+    let words = args.iter().flatten().skip(1).filter_map(Result::ok);
+    let mut any = false;
+    for word in words {
+        any = true;
+        each(word);
+    }
+    any
+}
+
+/// The job that a word of the command line asks for.
+fn job(word: &str) -> Job {
+    match word.parse() {
+        Ok(job) => job,
+        Err(error) => {
+            println!("error {word}: {error}");
+            exit(false)
+        }
+    }
+}
+
+/// Does something with the jobs of the command line, or else with [`Job::small`].
+pub fn for_each_job(mut each: impl FnMut(&Job)) {
+    if !for_each_word(|word| each(&job(word))) {
+        Job::small().for_each(|job| each(&job));
     }
 }
 

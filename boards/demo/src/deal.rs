@@ -84,6 +84,11 @@ impl<const BAND: u16> Deal<BAND> {
         self.freed = band.end;
     }
 
+    /// Deals no more rows: the picture ends with those that have been given away.
+    pub fn stop(&mut self) {
+        self.rows = self.rows.min(self.next);
+    }
+
     /// Whether every row has been sent.
     #[must_use]
     pub fn is_over(&self) -> bool {
@@ -96,6 +101,27 @@ mod tests {
     extern crate std;
     use super::{Claim, Deal};
     use std::vec::Vec;
+
+    /// A picture that is given up ends with the rows that somebody has.
+    #[test]
+    fn stopped_in_the_middle() {
+        let mut deal = Deal::<4>::new(40);
+        for y in 0..6 {
+            assert_eq!(deal.claim(), Claim::Row(y));
+            deal.finish(y);
+        }
+        assert_eq!(deal.take_band(), Some(0..4));
+        deal.stop();
+        assert_eq!(deal.claim(), Claim::Over);
+        deal.free(&(0..4));
+        assert!(!deal.is_over(), "two rows are left");
+        assert_eq!(deal.take_band(), Some(4..6));
+        deal.free(&(4..6));
+        assert!(deal.is_over());
+        // Nothing is left to give up.
+        deal.stop();
+        assert!(deal.is_over());
+    }
 
     /// Three workers and a sender that act in a random order: every row is traced once, no row's
     /// place is overwritten before it was sent, and bands come in order.

@@ -1,12 +1,13 @@
 //! The frame loop: one row after another, through one row buffer.
 
-use whitted::frame::{Renderer, Rgb888, Sample, Sampling, Settings};
+use whitted::frame::{Output, Renderer, Rgb888, Sample, Sampling, Settings};
 use whitted::math::{Arithmetic, Fixed};
+use whitted::scene::{Camera, Scene};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::Work;
 
 use crate::checksum::Checksum;
-use crate::job::{ArithName, Job, MAX_SAMPLES, MAX_WIDTH};
+use crate::job::{ArithName, Job, MAX_SAMPLES, MAX_WIDTH, sampled};
 use crate::scenes::{Shot, Shots, View};
 
 /// The depth that there is memory for.
@@ -42,9 +43,11 @@ fn run<T: Tally + Copy + Default>(
     let frame = Frame { job, watch, show, tally: T::default() };
     match (job.arith, job.sampling) {
         (ArithName::Fixed, Sampling::Center) => Fixed::shot(job.scene, frame),
-        (ArithName::F32, Sampling::Center) => f32::shot(job.scene, frame),
         (ArithName::Fixed, _) => Fixed::sampled(frame),
-        (ArithName::F32, _) => f32::sampled(frame),
+        (ArithName::F32, sampling) if sampling != Sampling::Center && sampled(ArithName::F32) => {
+            f32::sampled(frame)
+        }
+        (ArithName::F32, _) => f32::shot(job.scene, frame),
     }
 }
 
@@ -67,9 +70,9 @@ where
 
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
         if self.job.sampling == Sampling::Center {
-            self.draw(&shot, &mut [])
+            self.draw(shot, &mut [])
         } else {
-            self.sampled(&shot)
+            self.sampled(shot)
         }
     }
 }
@@ -82,8 +85,19 @@ where
 {
     /// With room for samples.
     #[inline(never)]
-    fn sampled<A: Arithmetic, const USES: u64>(self, shot: &Shot<A, USES>) -> (Checksum, T) {
+    fn sampled<A: Arithmetic, const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
         self.draw(shot, &mut [Sample::NONE; MAX_SAMPLES])
+    }
+
+    /// The shot's parts one by one: the compiler then sees that they are always the same statics,
+    /// as they are in a firmware that draws but one scene, and reads them where they are used.
+    #[inline(always)]
+    fn draw<A: Arithmetic, const USES: u64>(
+        self,
+        shot: Shot<A, USES>,
+        samples: &mut [Sample<A>],
+    ) -> (Checksum, T) {
+        self.draw_scene(shot.scene, shot.camera, shot.depth, shot.output, samples)
     }
 
     /// Not inlined, so that its stack frame, with the row and the tracer's memory, is its own.
@@ -91,17 +105,20 @@ where
     /// # Panics
     /// Never: a job's size fits, and no scene is deeper than the memory.
     #[inline(never)]
-    fn draw<A: Arithmetic, const USES: u64>(
+    fn draw_scene<A: Arithmetic, const USES: u64>(
         mut self,
-        shot: &Shot<A, USES>,
+        scene: &Scene<'_, A, USES>,
+        camera: &Camera<A>,
+        depth: u8,
+        output: Output,
         samples: &mut [Sample<A>],
     ) -> (Checksum, T) {
         let job = self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();
         let mut settings = Settings::new(job.width, job.height);
-        (settings.depth, settings.sampling) = (shot.depth, job.sampling);
+        (settings.depth, settings.sampling) = (depth, job.sampling);
         let mut renderer =
-            Renderer::with_tally(shot.scene, shot.camera, settings, &mut work, samples, self.tally)
+            Renderer::with_tally(scene, camera, settings, &mut work, samples, self.tally)
                 .expect("a job fits");
 
         let mut checksum = Checksum::EMPTY;
@@ -109,7 +126,7 @@ where
         let row = row.get_mut(..usize::from(job.width)).unwrap_or_default();
         for y in 0..job.height {
             self.watch.before();
-            renderer.line(y, &shot.output, row);
+            renderer.line(y, &output, row);
             self.watch.after();
             checksum.add(row.iter().flat_map(|&Rgb888(rgb)| rgb));
             (self.show)(row);

@@ -176,7 +176,10 @@ impl fmt::Display for JobError {
             Self::Scene => f.write_str(
                 "scenes are showcase, limit, raystones, ftb, gfxcat, spheres64 and bathroom",
             ),
-            Self::Arithmetic => f.write_str("arithmetics are fixed and f32"),
+            Self::Arithmetic => f.write_str(
+                "arithmetics are fixed and f32, \
+                 this without some scenes and all samplings where it is computed in software",
+            ),
             Self::Size => write!(
                 f,
                 "sizes go from 1x1 to {MAX_WIDTH}x{MAX_HEIGHT}, as far as {MAX_SAMPLES} samples do"
@@ -190,13 +193,21 @@ impl fmt::Display for JobError {
 
 impl core::error::Error for JobError {}
 
+/// Whether `f32` is computed in software, on an Arm core.
+const SOFT: bool = cfg!(all(target_arch = "arm", target_abi = "eabi"));
+
 /// Whether a scene is there in an arithmetic; on a PC all are.
 const fn carried(scene: SceneName, arith: ArithName) -> bool {
-    let soft = cfg!(all(target_arch = "arm", target_abi = "eabi"));
     if scene.is_for_counting() && !cfg!(any(feature = "counted", not(target_os = "none"))) {
         return false;
     }
-    !(soft && scene.is_soft_in_fixed_alone() && matches!(arith, ArithName::F32))
+    !(SOFT && scene.is_soft_in_fixed_alone() && matches!(arith, ArithName::F32))
+}
+
+/// Whether the samplings are there in an arithmetic: not where `f32` is computed in software, since the
+/// smallest flash would not hold them.
+pub(crate) const fn sampled(arith: ArithName) -> bool {
+    !(SOFT && matches!(arith, ArithName::F32))
 }
 
 impl FromStr for Job {
@@ -223,6 +234,7 @@ impl FromStr for Job {
         let (width, height) = (side(width, MAX_WIDTH)?, side(height, MAX_HEIGHT)?);
         let sampling = match sampling {
             None => Sampling::Center,
+            Some(_) if !sampled(arith) => return Err(JobError::Arithmetic),
             Some(name) => SAMPLINGS
                 .into_iter()
                 .find_map(|(known, s)| (known == name && scene == SceneName::Limit).then_some(s))

@@ -5,11 +5,15 @@
 
 pub mod checksum;
 pub mod deal;
+pub mod depths;
+pub mod fault;
+pub mod flash;
 pub mod frame;
 pub mod job;
 pub mod oled;
 pub mod rebuild;
 pub mod rgb565;
+pub mod room;
 pub mod scenes;
 
 #[cfg(all(target_os = "none", feature = "semihosting"))]

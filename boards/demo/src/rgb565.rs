@@ -1,26 +1,26 @@
 //! What a colour display of 16-bit pixels shows, on the chip and on the host that compares.
 
 use whitted::frame::{Renderer, Rgb565, Settings};
-use whitted::math::Fixed;
+use whitted::math::{Arithmetic, Fixed};
 use whitted::trace::Work;
 
 use crate::frame::MAX_DEPTH;
-use crate::job::SceneName;
+use crate::job::{ArithName, SceneName};
 use crate::scenes::{Shot, Shots, View};
 
 /// Bytes a pixel takes.
 pub const BYTES: usize = 2;
 
-/// A renderer of a shot, in fixed point.
+/// A renderer of a shot.
 ///
 /// # Panics
 /// If a side is 0: no scene is deeper than the memory.
-pub fn renderer<'a, const USES: u64>(
-    shot: &Shot<Fixed, USES>,
+pub fn renderer<'a, A: Arithmetic, const USES: u64>(
+    shot: &Shot<A, USES>,
     width: u16,
     height: u16,
-    work: &'a mut Work<Fixed, MAX_DEPTH>,
-) -> Renderer<'a, Fixed, MAX_DEPTH, (), USES> {
+    work: &'a mut Work<A, MAX_DEPTH>,
+) -> Renderer<'a, A, MAX_DEPTH, (), USES> {
     let settings = Settings { depth: shot.depth, ..Settings::new(width, height) };
     Renderer::new(shot.scene, shot.camera, settings, work, &mut []).expect("a picture with sides")
 }
@@ -34,12 +34,24 @@ pub fn sum(sum: u32, bytes: &[u8]) -> u32 {
     })
 }
 
-/// Draws a scene into bytes, big-endian, row by row; as many rows as there is room for.
+/// Draws a scene in fixed point into bytes, big-endian, row by row; as many rows as there is room for.
 ///
 /// # Panics
 /// If a side is 0.
 pub fn draw(scene: SceneName, width: u16, height: u16, bytes: &mut [u8]) {
-    Fixed::shot(scene, Bytes { width, height, bytes });
+    draw_in(ArithName::Fixed, scene, width, height, bytes);
+}
+
+/// The same in an arithmetic.
+///
+/// # Panics
+/// If a side is 0.
+pub fn draw_in(arith: ArithName, scene: SceneName, width: u16, height: u16, bytes: &mut [u8]) {
+    let view = Bytes { width, height, bytes };
+    match arith {
+        ArithName::Fixed => Fixed::shot(scene, view),
+        ArithName::F32 => f32::shot(scene, view),
+    }
 }
 
 struct Bytes<'a> {
@@ -48,10 +60,10 @@ struct Bytes<'a> {
     bytes: &'a mut [u8],
 }
 
-impl View<Fixed> for Bytes<'_> {
+impl<A: Arithmetic> View<A> for Bytes<'_> {
     type Output = ();
 
-    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) {
+    fn view<const USES: u64>(self, shot: Shot<A, USES>) {
         let mut work = Work::new();
         let mut renderer = renderer(&shot, self.width, self.height, &mut work);
         renderer.band::<Rgb565>(0, &shot.output, self.bytes);

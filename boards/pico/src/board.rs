@@ -44,13 +44,13 @@ impl Unstarted {
     /// Starts the display, black.
     ///
     /// # Panics
-    /// Never: neither pins nor SPI can fail.
+    /// If the display's first commands can't be sent.
     pub(crate) fn start(self, sleep: &mut Sleep) -> Display {
         let mut display = panel::options(Builder::new(panel::MODEL, self.link))
             .reset_pin(self.reset)
             .init(sleep)
-            .expect("neither pins nor SPI can fail");
-        let Ok(()) = display.clear(RgbColor::BLACK);
+            .expect("SPI sends");
+        display.clear(RgbColor::BLACK).expect("SPI sends");
         display
     }
 }
@@ -90,6 +90,7 @@ impl Board {
             chip.DMA.split(&mut chip.RESETS).ch0,
             pins.gpio9.into_push_pull_output_in_state(PinState::High),
             pins.gpio8.into_push_pull_output(),
+            timer,
         );
         let reset = pins.gpio12.into_push_pull_output_in_state(PinState::High);
         let board = Self {

@@ -1,6 +1,5 @@
 //! A frame, by each way.
 
-use core::convert::Infallible;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use embedded_graphics::image::Image;
@@ -19,32 +18,54 @@ use whitted_demo::stack;
 
 use crate::board::{Board, Display};
 use crate::cores::Second;
+use crate::link::Fault;
 use crate::log;
 use crate::order::{Frame, Order, Way};
 use crate::rows::{self, Band};
 
+/// A frame is drawn so many times until it is whole; then it is another scene's turn.
+const TRIES: usize = 5;
+
 impl Board {
     /// Draws a frame in the upper left corner of a display, between two edges of the mark; without
-    /// one it is only traced. The stack is painted below `top`.
-    pub(crate) fn frame(&mut self, display: Option<&mut Display>, order: &Order, top: usize) {
+    /// one it is only traced. The stack is painted below `top`. If it can't be sent, the log says why and
+    /// it is drawn again, a few times.
+    pub(crate) fn frame(&mut self, mut display: Option<&mut Display>, order: &Order, top: usize) {
+        for _ in 0..TRIES {
+            match self.once(display.as_deref_mut(), order, top) {
+                Ok(()) => break,
+                Err(fault) => log::fault(order, fault),
+            }
+        }
+    }
+
+    fn once(
+        &mut self,
+        display: Option<&mut Display>,
+        order: &Order,
+        top: usize,
+    ) -> Result<(), Fault> {
         let start = self.timer.get_counter();
         let Ok(()) = self.mark.set_high();
-        match display {
-            Some(display) => {
-                let Ok(()) = draw(display, &mut self.second, order);
+        let sent = match display {
+            Some(display) => draw(display, &mut self.second, order),
+            None => {
+                keep(&mut self.second, order.frame);
+                Ok(())
             }
-            None => keep(&mut self.second, order.frame),
-        }
+        };
         let Ok(()) = self.mark.set_low();
+        sent?;
         let time = self.timer.get_counter() - start;
         let (stack, memory) = (stack::used(top), stack::static_bytes());
         log::frame(order, time.to_micros(), stack, memory);
+        Ok(())
     }
 }
 
 /// Not inlined, so that the stack it takes is its own.
 #[inline(never)]
-fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(), Infallible> {
+fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(), Fault> {
     let Order { frame, way } = *order;
     match way {
         Way::Bands => {
@@ -75,10 +96,10 @@ struct Graphics<'a> {
 }
 
 impl View<Fixed> for Graphics<'_> {
-    type Output = Result<(), Infallible>;
+    type Output = Result<(), Fault>;
 
     #[inline(never)]
-    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), Infallible> {
+    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), Fault> {
         let mut work = Work::<_, MAX_DEPTH>::new();
         let Frame { width, height, .. } = self.frame;
         let renderer = rgb565::renderer(&shot, width, height, &mut work);

@@ -1,17 +1,23 @@
 //! The way to the display: commands one by one, pixels by DMA from two buffers. While one is
 //! sent, the other is filled.
+//!
+//! An SPI that only sends can't know whether a display listens. What it can know is that bytes don't
+//! leave, and that DMA met an error on the chip's bus. No wait is longer than [`PATIENCE`]; after
+//! an error the display is let go of and the channel is free, so that the next frame begins anew.
 
 use core::convert::Infallible;
 
 use embedded_hal::digital::OutputPin;
-use embedded_hal::spi::SpiBus;
+use embedded_hal_nb::spi::FullDuplex;
 use mipidsi::interface::{Interface, InterfaceKind};
 use rp2040_hal::dma::single_buffer::{Config, Transfer};
 use rp2040_hal::dma::{CH0, Channel};
+use rp2040_hal::fugit::MicrosDurationU64;
 use rp2040_hal::gpio::bank0::{Gpio8, Gpio9, Gpio10, Gpio11};
 use rp2040_hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown};
-use rp2040_hal::pac::SPI1;
+use rp2040_hal::pac::{self, SPI1};
 use rp2040_hal::spi::{Enabled, Spi};
+use rp2040_hal::timer::{Instant, Timer};
 
 use crate::rows::{self, Band};
 
@@ -21,31 +27,91 @@ type Wires =
 /// An output.
 type Output<I> = Pin<I, FunctionSioOutput, PullDown>;
 
+/// A band takes a millisecond or two, at the slowest clock of SPI.
+const PATIENCE: MicrosDurationU64 = MicrosDurationU64::millis(50);
+
+/// What can go wrong on the way to the display.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fault {
+    /// Bytes don't leave in time: SPI or DMA stands still.
+    Stuck,
+    /// DMA met an error on the chip's bus.
+    Bus,
+}
+
+impl Fault {
+    /// For a log.
+    pub(crate) const fn words(self) -> &'static str {
+        match self {
+            Self::Stuck => "SPI stands still",
+            Self::Bus => "DMA met an error on the bus",
+        }
+    }
+}
+
+/// Pins can't fail.
+impl From<Infallible> for Fault {
+    fn from(never: Infallible) -> Self {
+        match never {}
+    }
+}
+
+/// Whether the channel has met an error since it was last asked.
+fn is_bus_error() -> bool {
+    // SAFETY: this module has the channel, and nothing else looks at its flags.
+    let channel = unsafe { &*pac::DMA::ptr() }.ch(0);
+    let met = channel.ch_ctrl_trig().read().ahb_error().bit_is_set();
+    if met {
+        // By the register that starts nothing.
+        channel.ch_al1_ctrl().write(|w| {
+            // SAFETY: the two flags alone, which are cleared by writing 1; the channel is off.
+            unsafe { w.bits(1 << 30 | 1 << 29) }
+        });
+    }
+    met
+}
+
 /// What sends, and the buffer that goes with it.
 enum Sender {
     Idle(Channel<CH0>, Wires, Band),
-    Busy(Transfer<Channel<CH0>, Band, Wires>),
+    Busy(Transfer<Channel<CH0>, Band, Wires>, Instant),
 }
 
 impl Sender {
-    /// Whether nothing is on its way.
-    fn is_done(&self) -> bool {
+    /// Whether nothing is on its way any more, be it that it takes too long.
+    fn is_over(&self, timer: Timer) -> bool {
         match self {
             Self::Idle(..) => true,
-            Self::Busy(transfer) => transfer.is_done(),
-        }
-    }
-
-    /// Waits for the buffer to be sent.
-    fn wait(self) -> (Channel<CH0>, Wires, Band) {
-        match self {
-            Self::Idle(channel, wires, band) => (channel, wires, band),
-            Self::Busy(transfer) => {
-                let (channel, band, wires) = transfer.wait();
-                (channel, wires, band)
+            Self::Busy(transfer, since) => {
+                transfer.is_done() || timer.get_counter() - *since > PATIENCE
             }
         }
     }
+
+    /// Waits for the buffer to be sent; if it can't be, what is left of it isn't.
+    fn wait(self, timer: Timer) -> (Channel<CH0>, Wires, Band, Result<(), Fault>) {
+        match self {
+            Self::Idle(channel, wires, band) => (channel, wires, band, Ok(())),
+            Self::Busy(transfer, since) => {
+                let done = wait(timer, since, || transfer.is_done());
+                let (channel, band, wires) =
+                    if done.is_ok() { transfer.wait() } else { transfer.abort() };
+                let done = if is_bus_error() { Err(Fault::Bus) } else { done };
+                (channel, wires, band, done)
+            }
+        }
+    }
+}
+
+/// Waits until something holds, for as long as there is patience.
+fn wait(timer: Timer, since: Instant, holds: impl Fn() -> bool) -> Result<(), Fault> {
+    while !holds() {
+        // Looked at again: the core may have been away between the two.
+        if timer.get_counter() - since > PATIENCE && !holds() {
+            return Err(Fault::Stuck);
+        }
+    }
+    Ok(())
 }
 
 /// The display's connection.
@@ -56,6 +122,7 @@ pub(crate) struct Link {
     band: Option<Band>,
     select: Output<Gpio9>,
     data_command: Output<Gpio8>,
+    timer: Timer,
 }
 
 const PUT_BACK: &str = "put back by every call";
@@ -66,9 +133,33 @@ impl Link {
         channel: Channel<CH0>,
         select: Output<Gpio9>,
         data_command: Output<Gpio8>,
+        timer: Timer,
     ) -> Self {
         let sender = Some(Sender::Idle(channel, wires, Band::half(false)));
-        Self { sender, band: Some(Band::half(true)), select, data_command }
+        Self { sender, band: Some(Band::half(true)), select, data_command, timer }
+    }
+
+    /// Selects the display, when no bytes of a frame that failed are left.
+    fn begin(&mut self) -> Result<(), Fault> {
+        self.flush()?;
+        self.select.set_low()?;
+        Ok(())
+    }
+
+    /// Lets go of the display, whatever happened.
+    fn end(&mut self, sent: Result<(), Fault>) -> Result<(), Fault> {
+        let flushed = self.flush();
+        self.select.set_high()?;
+        sent.and(flushed)
+    }
+
+    /// Waits until the last bit has left.
+    fn flush(&mut self) -> Result<(), Fault> {
+        let (channel, wires, band, sent) = self.sender.take().expect(PUT_BACK).wait(self.timer);
+        let start = self.timer.get_counter();
+        let flushed = sent.and_then(|()| wait(self.timer, start, || !wires.is_busy()));
+        self.sender = Some(Sender::Idle(channel, wires, band));
+        flushed
     }
 
     /// Sends pixels in bands: `fill` gets one buffer, while the other is sent, and says how many
@@ -76,91 +167,109 @@ impl Link {
     pub(crate) fn send_bands(
         &mut self,
         mut fill: impl FnMut(&mut [u8]) -> usize,
-    ) -> Result<(), Infallible> {
-        self.select.set_low()?;
+    ) -> Result<(), Fault> {
+        self.begin()?;
         let mut band = self.band.take().expect(PUT_BACK);
-        loop {
-            if band.fill(&mut fill) == 0 {
-                break;
-            }
-            band = self.exchange(band);
+        let mut sent = Ok(());
+        while sent.is_ok() && band.fill(&mut fill) != 0 {
+            (band, sent) = self.exchange(band);
         }
         self.band = Some(band);
-        self.finish()
+        self.end(sent)
     }
 
     /// Sends the rows of the frame that is dealt, of `line` bytes each, in bands as they are
-    /// finished, and traces rows in the meantime.
+    /// finished, and traces rows in the meantime. After an error no more rows are dealt.
     pub(crate) fn send_rows(
         &mut self,
         line: usize,
         row: &mut dyn FnMut(u16, &mut [u8]),
-    ) -> Result<(), Infallible> {
-        self.select.set_low()?;
+    ) -> Result<(), Fault> {
+        let mut sent = self.begin();
         // The band that is being sent.
         let mut sending = None;
         while !rows::is_over() {
-            if self.sender.as_ref().is_some_and(Sender::is_done)
+            if self.sender.as_ref().is_some_and(|sender| sender.is_over(self.timer))
                 && let Some(band) = sending.take()
             {
+                sent = sent.and(self.collect());
                 rows::free(&band);
+            }
+            if sent.is_err() {
+                rows::stop();
             }
             if sending.is_none() {
                 sending = rows::take_band();
-                if let Some(band) = &sending {
-                    self.exchange(Band::of(band, line));
+                if let (Some(band), Ok(())) = (&sending, sent) {
+                    let (_, before) = self.exchange(Band::of(band, line));
+                    sent = before;
                 }
             }
             rows::work(line, &mut *row);
         }
-        self.finish()
+        self.end(sent)
     }
 
-    /// Starts sending a buffer as soon as the other is sent, which comes back.
-    fn exchange(&mut self, full: Band) -> Band {
-        let (channel, wires, band) = self.sender.take().expect(PUT_BACK).wait();
-        self.sender = Some(Sender::Busy(Config::new(channel, full, wires).start()));
-        band
-    }
-
-    /// Waits until the last bit has left, and lets go of the display.
-    fn finish(&mut self) -> Result<(), Infallible> {
-        let (channel, mut wires, band) = self.sender.take().expect(PUT_BACK).wait();
-        wires.flush()?;
+    /// Waits for what is being sent, and takes note of how that went.
+    fn collect(&mut self) -> Result<(), Fault> {
+        let (channel, wires, band, sent) = self.sender.take().expect(PUT_BACK).wait(self.timer);
         self.sender = Some(Sender::Idle(channel, wires, band));
-        self.select.set_high()
+        sent
+    }
+
+    /// Starts sending a buffer as soon as the other is sent, which comes back; not if that failed.
+    fn exchange(&mut self, full: Band) -> (Band, Result<(), Fault>) {
+        let (channel, wires, band, sent) = self.sender.take().expect(PUT_BACK).wait(self.timer);
+        if sent.is_err() {
+            self.sender = Some(Sender::Idle(channel, wires, band));
+            return (full, sent);
+        }
+        let transfer = Config::new(channel, full, wires).start();
+        self.sender = Some(Sender::Busy(transfer, self.timer.get_counter()));
+        (band, Ok(()))
     }
 
     /// Sends bytes while the core waits.
-    fn write(&mut self, bytes: &[u8]) -> Result<(), Infallible> {
-        let (channel, mut wires, band) = self.sender.take().expect(PUT_BACK).wait();
-        wires.write(bytes)?;
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+        let start = self.timer.get_counter();
+        if let Some(Sender::Idle(_, wires, _)) = &mut self.sender {
+            for &byte in bytes {
+                while wires.write(byte).is_err() {
+                    if self.timer.get_counter() - start > PATIENCE {
+                        return Err(Fault::Stuck);
+                    }
+                }
+            }
+        }
         // The data/command line changes next.
-        wires.flush()?;
-        self.sender = Some(Sender::Idle(channel, wires, band));
-        Ok(())
+        self.flush()
+    }
+
+    /// Sends a command and what belongs to it.
+    fn command(&mut self, command: u8, args: &[u8]) -> Result<(), Fault> {
+        self.data_command.set_low()?;
+        self.write(&[command])?;
+        self.data_command.set_high()?;
+        self.write(args)
     }
 }
 
 impl Interface for Link {
     type Word = u8;
-    type Error = Infallible;
+    type Error = Fault;
 
     const KIND: InterfaceKind = InterfaceKind::Serial4Line;
 
-    fn send_command(&mut self, command: u8, args: &[u8]) -> Result<(), Infallible> {
-        self.data_command.set_low()?;
-        self.select.set_low()?;
-        self.write(&[command])?;
-        self.data_command.set_high()?;
-        self.write(args)?;
-        self.select.set_high()
+    fn send_command(&mut self, command: u8, args: &[u8]) -> Result<(), Fault> {
+        self.begin()?;
+        let sent = self.command(command, args);
+        self.end(sent)
     }
 
     fn send_pixels<const N: usize>(
         &mut self,
         pixels: impl IntoIterator<Item = [u8; N]>,
-    ) -> Result<(), Infallible> {
+    ) -> Result<(), Fault> {
         let mut pixels = pixels.into_iter();
         self.send_bands(|bytes| {
             let mut filled = 0;
@@ -177,7 +286,7 @@ impl Interface for Link {
         &mut self,
         pixel: [u8; N],
         count: u32,
-    ) -> Result<(), Infallible> {
+    ) -> Result<(), Fault> {
         self.send_pixels((0..count).map(|_| pixel))
     }
 }

@@ -1,5 +1,6 @@
 //! What the board says, where somebody listens.
 
+use crate::link::Fault;
 use crate::order::Order;
 
 /// A frame has been drawn.
@@ -14,6 +15,22 @@ pub(crate) fn frame(order: &Order, us: u64, stack: usize, memory: usize) {
         stack,
         memory
     );
+}
+
+/// A frame couldn't be sent.
+#[cfg(feature = "rtt")]
+pub(crate) fn fault(order: &Order, fault: Fault) {
+    defmt::error!(
+        "{=str}: {=str}; the frame is drawn again",
+        order.frame.scene.name(),
+        fault.words()
+    );
+}
+
+/// Nobody listens.
+#[cfg(not(feature = "rtt"))]
+pub(crate) fn fault(_: &Order, fault: Fault) {
+    let _ = fault.words();
 }
 
 /// Nobody listens.

@@ -41,6 +41,11 @@ pub(crate) fn begin(rows: u16) {
     deal(|deal| *deal = Deal::new(rows));
 }
 
+/// Deals no more rows of the frame.
+pub(crate) fn stop() {
+    deal(Deal::stop);
+}
+
 /// Whether every row has been sent.
 pub(crate) fn is_over() -> bool {
     deal(|deal| deal.is_over())

@@ -1,7 +1,6 @@
 //! A scene as one piece of bytes, for flash.
 
 use whitted::blob::{Content, Counts, seal};
-use whitted::gather::Indirect;
 use whitted::scene::{Selection, Shapes};
 
 use super::{Baked, Construct, specs};
@@ -23,7 +22,11 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The scene holds what a blob can't.
     pub fn blob(&self, size: Size) -> Result<Flash, Flaw> {
-        self.bakeable()?;
+        self.fits_blob()?;
+        self.flash(size)
+    }
+
+    fn flash(&self, size: Size) -> Result<Flash, Flaw> {
         let uses = self.with_scene(|scene| scene.parts().uses())?;
         let parts = self.shapes.parts()?;
         let materials: Result<Vec<_>, _> =
@@ -60,26 +63,31 @@ impl<A: Construct> Baked<A> {
         Ok(Flash { bytes, counts: content.counts() })
     }
 
-    /// Whether baked forms can hold all of the scene.
-    pub(super) fn bakeable(&self) -> Result<(), Flaw> {
+    /// Whether a blob can hold all of the scene.
+    fn fits_blob(&self) -> Result<(), Flaw> {
         let without = self.with_scene(|scene| {
             let parts = scene.parts();
             [
                 ("instances of groups", parts.instances.is_empty()),
                 ("solids", parts.solids.is_empty()),
-                ("area lights", parts.area_lights.is_empty()),
                 ("textures and bumps", parts.textures.is_empty()),
+                ("interreflection", self.placed.indirect.is_none()),
+                ("area lights", parts.area_lights.is_empty()),
                 ("absorption", parts.absorptions.is_empty()),
                 ("a selection of lights", matches!(parts.selection, Selection::All)),
-                ("interreflection", matches!(parts.indirect, Indirect::None)),
             ]
         })?;
-        match without.into_iter().find(|(_, empty)| !empty) {
-            None => Ok(()),
-            Some((what, _)) => {
-                let why = "baked scenes can't hold them; `whitted render` can".into();
-                Err(Problem::Unrepresentable { what: what.into(), why }.anywhere())
-            }
+        refuse(&without, "a blob can't hold them; Rust source (`-o scene.rs`) can")
+    }
+}
+
+/// Refuses the first that isn't empty.
+fn refuse(without: &[(&str, bool)], why: &str) -> Result<(), Flaw> {
+    match without.iter().find(|(_, empty)| !empty) {
+        None => Ok(()),
+        Some(&(what, _)) => {
+            let (what, why) = (what.into(), why.into());
+            Err(Problem::Unrepresentable { what, why }.anywhere())
         }
     }
 }

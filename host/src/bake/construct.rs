@@ -3,7 +3,10 @@
 //! The core's constructors are const fns of each arithmetic, and a const fn can't be a trait's.
 //! Here they are, as a trait.
 
-use whitted::gather::{Gathering, GatheringSpec, VirtualLightsSettings, VirtualLightsSpec};
+use whitted::gather::{
+    Gathering, GatheringSpec, VirtualLight, VirtualLightSpec, VirtualLightsSettings,
+    VirtualLightsSpec,
+};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
 use whitted::scene::{
@@ -122,6 +125,10 @@ construct! {
     /// See [`VirtualLightsSettings`].
     fn new_virtual_lights(spec: &VirtualLightsSpec) -> Made<VirtualLightsSettings<Self>>
         = |A| VirtualLightsSettings::<A>::try_new(spec);
+
+    /// See [`VirtualLight`].
+    fn virtual_light_spec(light: &VirtualLight<Self>) -> VirtualLightSpec
+        = |A| { let light: &VirtualLight<A> = light; light.spec() };
 
     /// Where a sphere lies.
     fn sphere_extent(shape: &Sphere<Self>, log2_step: i8) -> Extent

@@ -83,6 +83,18 @@ impl<A: Construct> Groups<A> {
         self.places.iter().filter_map(make).collect()
     }
 
+    /// The shapes of a group by the document's index; `None` if it stands nowhere.
+    pub(super) fn placed(&self, index: usize) -> Option<&Shapes<A>> {
+        self.places.iter().find(|place| place.group == index)?;
+        self.shapes.get(index)
+    }
+
+    /// The index of the group that stands at each place, how it stands there, and the material
+    /// that its shapes have instead of their own.
+    pub(super) fn places(&self) -> impl Iterator<Item = (usize, &Transform, Option<u16>)> {
+        self.places.iter().map(|place| (place.group, &place.transform, place.material))
+    }
+
     /// Words of all trees.
     pub(super) fn tree_words(&self) -> usize {
         self.shapes.iter().filter_map(Shapes::tree).map(|(words, _)| words).sum()

@@ -2,15 +2,18 @@
 
 mod blob;
 mod construct;
+mod glow;
 mod group;
 mod light;
 mod place;
+mod precision;
 mod shapes;
 mod source;
 mod specs;
 
 pub use blob::{Flash, parts_of};
 pub use construct::Construct;
+pub use glow::Glow;
 use group::Groups;
 use light::Lights;
 pub use place::Placement;
@@ -59,6 +62,9 @@ impl<A: Construct> Baked<A> {
     /// What of it the arithmetic can't hold, with its line.
     pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
         let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
+        if A::NARROW {
+            precision::check(document, &placement)?;
+        }
         let mut placed = placement.place(document);
         let bodies = placed.embody();
         let background = match placed.background {
@@ -130,7 +136,19 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// The arithmetic can't hold it.
     pub fn camera(&self, size: Size) -> Result<Camera<A>, Flaw> {
-        let CameraSpec { eye, at, up, tangent } = specs::camera(&self.placed.camera, size);
+        self.placed_camera(&self.placed.camera, size)
+    }
+
+    /// Another camera in the document's coordinates, for pictures of this size.
+    ///
+    /// # Errors
+    /// The arithmetic can't hold it.
+    pub fn camera_of(&self, camera: &document::Camera, size: Size) -> Result<Camera<A>, Flaw> {
+        self.placed_camera(&self.placement.camera(camera), size)
+    }
+
+    fn placed_camera(&self, camera: &document::Camera, size: Size) -> Result<Camera<A>, Flaw> {
+        let CameraSpec { eye, at, up, tangent } = specs::camera(camera, size);
         A::new_camera(eye, at, up, tangent).map_err(|error| refused::<A>("the camera", error, None))
     }
 

@@ -87,6 +87,12 @@ impl Placement {
         l * self.scale()
     }
 
+    /// A camera.
+    #[must_use]
+    pub fn camera(&self, camera: &Camera) -> Camera {
+        Camera { eye: self.point(camera.eye), look_at: self.point(camera.look_at), ..*camera }
+    }
+
     /// The whole scene.
     #[must_use]
     pub fn place(&self, document: &Document) -> Document {
@@ -94,8 +100,7 @@ impl Placement {
         if *self == Self::IDENTITY {
             return placed;
         }
-        let Camera { eye, look_at, .. } = &mut placed.camera;
-        (*eye, *look_at) = (self.point(*eye), self.point(*look_at));
+        placed.camera = self.camera(&document.camera);
         placed.materials.iter_mut().for_each(|material| self.material(material));
         // Ways are measured in the scene, within groups too.
         for material in &mut placed.materials {

@@ -33,7 +33,7 @@ pub(super) fn material(m: &document::Material) -> Result<MaterialSpec, ShapeErro
         },
         pattern,
         fresnel: m.fresnel,
-        // Textures and media lie elsewhere; baked forms refuse them.
+        // Media lie elsewhere, in lists that the caller numbers; baked forms refuse textures.
         ..MaterialSpec::BLACK
     })
 }

@@ -9,6 +9,7 @@ use whitted::math::Fixed;
 use whitted_host::bake::{Baked, Construct, Thrift, parts_of};
 use whitted_host::document::{Document, Size};
 use whitted_host::error::Flaw;
+use whitted_host::need;
 use whitted_host::picture::save;
 use whitted_host::read;
 
@@ -75,15 +76,30 @@ fn bake<A: Construct>(
     source: bool,
 ) -> Result<(Vec<u8>, String), Flaw> {
     let baked = Baked::<A>::with(document, Thrift::Flash)?;
-    let flash = baked.blob(size)?;
     let mut said = String::new();
-    for (what, count, bytes) in parts_of::<A>(&flash.counts) {
-        let _ = writeln!(said, "{bytes:>9} bytes  {count} {what}");
-    }
-    let shapes = baked.document().shapes.len().max(1);
-    let each = flash.bytes.len() as f64 / shapes as f64;
-    let _ = writeln!(said, "{:>9} bytes in all, {each:.1} a shape", flash.bytes.len());
-    // The source takes as much, but for materials and lights, which lie there precomputed.
-    let bytes = if source { baked.source(name, size)?.into_bytes() } else { flash.bytes };
+    let (bytes, all) = if source {
+        let mut all = 0;
+        let mut say = |what: &str, bytes: usize| {
+            all += bytes;
+            let _ = writeln!(said, "{bytes:>9} bytes  {what}");
+        };
+        for (what, bytes) in need::flash(&baked)? {
+            say(what, bytes);
+        }
+        let glow = baked.glow(size)?;
+        if let Some((what, count, bytes)) = glow.size::<A>() {
+            say(&format!("{count} {what}"), bytes);
+        }
+        (baked.source_with(name, size, &glow)?.into_bytes(), all)
+    } else {
+        let flash = baked.blob(size)?;
+        for (what, count, bytes) in parts_of::<A>(&flash.counts) {
+            let _ = writeln!(said, "{bytes:>9} bytes  {count} {what}");
+        }
+        let all = flash.bytes.len();
+        (flash.bytes, all)
+    };
+    let each = all as f64 / baked.document().shapes.len().max(1) as f64;
+    let _ = writeln!(said, "{all:>9} bytes in all, {each:.1} a shape");
     Ok((bytes, said))
 }

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use whitted::math::Fixed;
-use whitted_host::bake::{Baked, Construct, Placement};
+use whitted_host::bake::{Baked, Construct, Placement, Thrift, parts_of};
 use whitted_host::document::{Body, Document, Material, Size};
+use whitted_host::error::Flaw;
 use whitted_host::need::{self, BOARDS, PROGRAM, Pixel, RESERVE};
 use whitted_host::read;
 
@@ -140,7 +141,8 @@ fn fits<A: Construct>(
     file: &Path,
     size: Size,
 ) -> Result<Option<Need>, Failure> {
-    match Baked::<A>::new(document) {
+    // As `bake` does it: with the octree that flash has room for.
+    match Baked::<A>::with(document, Thrift::Flash) {
         Err(flaw) => {
             line(A::NAME, format_args!("no: {}", flaw.of(file)))?;
             Ok(None)
@@ -158,12 +160,8 @@ fn fits<A: Construct>(
                 None => "no octree".to_string(),
             };
             line(A::NAME, format_args!("yes, {placed}; {tree}"))?;
-            let parts = need::flash(&baked).map_err(|flaw| flaw.of(file))?;
-            let flash = parts.iter().map(|(_, bytes)| bytes).sum();
-            let list: Vec<String> =
-                parts.iter().map(|(name, bytes)| format!("{name} {bytes}")).collect();
-            let chip = if size_of::<usize>() > 4 { ", some less on a chip" } else { "" };
-            line("  flash", format_args!("{flash} bytes{chip}: {}", list.join(", ")))?;
+            let (flash, text) = in_flash(&baked, size).map_err(|flaw| flaw.of(file))?;
+            line("  flash", format_args!("{text}"))?;
             let depth = document.rules.depth;
             let memory = need::memory::<A>(depth);
             line("  memory", format_args!("{memory} bytes to trace {depth} deep, and rows"))?;
@@ -179,4 +177,25 @@ fn fits<A: Construct>(
             Ok(Some(Need { arithmetic: A::NAME, flash, memory, pixel }))
         }
     }
+}
+
+/// The bytes that a scene takes in flash, and what they are: those of a blob, or, where none can hold
+/// the scene, those of a `static`.
+fn in_flash<A: Construct>(baked: &Baked<A>, size: Size) -> Result<(usize, String), Flaw> {
+    let (flash, form, parts): (usize, &str, Vec<(&str, usize)>) = match baked.blob(size) {
+        Ok(flash) => {
+            let parts = parts_of::<A>(&flash.counts).into_iter();
+            (flash.bytes.len(), " baked", parts.map(|(name, _, bytes)| (name, bytes)).collect())
+        }
+        Err(_) => {
+            let mut parts = need::flash(baked)?;
+            if let Some((name, _, bytes)) = baked.glow(size)?.size::<A>() {
+                parts.push((name, bytes));
+            }
+            let chip = if size_of::<usize>() > 4 { ", some less on a chip" } else { "" };
+            (parts.iter().map(|(_, bytes)| bytes).sum(), chip, parts)
+        }
+    };
+    let list: Vec<String> = parts.iter().map(|(name, bytes)| format!("{name} {bytes}")).collect();
+    Ok((flash, format!("{flash} bytes{form}: {}", list.join(", "))))
 }

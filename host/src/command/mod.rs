@@ -5,6 +5,8 @@ mod check;
 mod progress;
 mod render;
 mod trace;
+#[cfg(feature = "window")]
+mod view;
 
 use std::fmt;
 use std::io;
@@ -36,11 +38,14 @@ enum Command {
     Render(render::Options),
     /// Read and validate a scene, and say what is in it
     Check {
-        /// The scene: .toml, .nff or .obj
+        /// The scene: .toml, .nff, .obj, .gltf or .glb
         scene: PathBuf,
     },
     /// Print the tree of rays of one pixel
     Trace(trace::Options),
+    #[cfg(feature = "window")]
+    /// Open a window in which the picture refines, and orbit around the scene
+    View(view::Options),
     /// Turn a scene into what firmware takes in, and say how much flash it takes
     Bake(bake::Options),
 }
@@ -170,6 +175,8 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Render(options)) => render::run(&options, line.quiet),
         Some(Command::Check { scene }) => check::run(&scene, line.quiet),
         Some(Command::Trace(options)) => trace::run(&options),
+        #[cfg(feature = "window")]
+        Some(Command::View(options)) => view::run(&options, line.quiet),
         Some(Command::Bake(options)) => bake::run(&options, line.quiet),
     };
     match done {

@@ -28,7 +28,7 @@ const SHOWCASE: &str = include_str!("../../scenes/showcase.toml");
 
 #[derive(clap::Args)]
 pub(super) struct Options {
-    /// The scene: .toml, .nff or .obj
+    /// The scene: .toml, .nff, .obj, .gltf or .glb
     scene: PathBuf,
     /// Where the picture goes; - is standard output [default: the scene's name with .png, here]
     #[arg(short, long)]

@@ -13,7 +13,7 @@ use super::{Arith, Failure, With, print};
 
 #[derive(clap::Args)]
 pub(super) struct Options {
-    /// The scene: .toml, .nff or .obj
+    /// The scene: .toml, .nff, .obj, .gltf or .glb
     scene: PathBuf,
     /// The pixel's column, from 0 at the left
     x: u32,

@@ -34,30 +34,44 @@ impl Skipped {
 #[derive(Debug, Default)]
 pub(crate) struct Faces {
     pub(crate) bodies: Vec<Body>,
+    /// The texture coordinates of each body, where the face has some.
+    pub(crate) uvs: Vec<Option<[[f64; 2]; 3]>>,
     pub(crate) skipped: Option<Skipped>,
 }
 
 impl Faces {
     /// Of a face with these corners, and as many normals or none.
     pub(crate) fn of(corners: &[Point], normals: &[Point]) -> Self {
+        Self::with_uvs(corners, normals, &[])
+    }
+
+    /// Of a face with these corners, and as many normals or none, and as many texture coordinates
+    /// or none: with these it becomes triangles, which alone have them.
+    pub(crate) fn with_uvs(corners: &[Point], normals: &[Point], uvs: &[[f64; 2]]) -> Self {
         let flat = flat(corners, normals);
         let parts = match split(corners) {
             Ok(parts) => parts,
             Err(NoPolygon::NoArea) => return Self::none(Skipped::NoArea),
             Err(NoPolygon::Tangled) => return Self::none(Skipped::Tangled),
         };
+        let uv = |t: [usize; 3]| match t.map(|i| uvs.get(i).copied()) {
+            [Some(a), Some(b), Some(c)] if uvs.len() == corners.len() => Some([a, b, c]),
+            _ => None,
+        };
         let triangle = |t: [usize; 3]| {
             let at = t.map(|i| corners[i]);
-            match t.map(|i| normals.get(i).copied()) {
+            let body = match t.map(|i| normals.get(i).copied()) {
                 [Some(a), Some(b), Some(c)] if !flat => {
                     Body::SmoothTriangle { corners: at, normals: [a, b, c] }
                 }
                 _ => Body::Triangle { corners: at },
-            }
+            };
+            (body, uv(t))
         };
-        let bodies: Vec<Body> = match parts {
-            Parts::Convex(kept) if flat => {
-                vec![Body::Polygon { corners: kept.into_iter().map(|i| corners[i]).collect() }]
+        let bodies: Vec<_> = match parts {
+            Parts::Convex(kept) if flat && uvs.len() != corners.len() => {
+                let corners = kept.into_iter().map(|i| corners[i]).collect();
+                vec![(Body::Polygon { corners }, None)]
             }
             // A fan around the first corner.
             Parts::Convex(kept) => {
@@ -66,13 +80,14 @@ impl Faces {
             Parts::Triangles(triangles) => triangles.into_iter().map(triangle).collect(),
         };
         let all = bodies.len();
-        let bodies: Vec<Body> = bodies.into_iter().filter(|body| body.flaw().is_none()).collect();
+        let (bodies, uvs): (Vec<_>, Vec<_>) =
+            bodies.into_iter().filter(|(body, _)| body.flaw().is_none()).unzip();
         let skipped = (bodies.len() < all).then_some(Skipped::NoArea);
-        Self { bodies, skipped }
+        Self { bodies, uvs, skipped }
     }
 
     fn none(why: Skipped) -> Self {
-        Self { bodies: Vec::new(), skipped: Some(why) }
+        Self { skipped: Some(why), ..Self::default() }
     }
 }
 

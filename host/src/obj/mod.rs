@@ -48,6 +48,12 @@ const WITHOUT: [(&str, &[&str]); 4] = [
     ("texture maps by usemap", &["maplib", "usemap"]),
 ];
 
+/// As far as texture coordinates may lie from the picture, which is repeated.
+const FARTHEST_UV: f64 = 1e6;
+
+/// As far as the core takes them.
+const FARTHEST_UV_HELD: f64 = 7.999;
+
 /// Words that are read.
 const WORDS: [&str; 9] = ["v", "vt", "vn", "f", "g", "o", "s", "mtllib", "usemtl"];
 
@@ -70,6 +76,7 @@ pub fn parse(text: &str, around: &Around) -> Result<Document, Flaw> {
 #[derive(Clone, Copy)]
 struct Corner {
     position: usize,
+    texture: Option<usize>,
     normal: Option<usize>,
 }
 
@@ -86,7 +93,7 @@ struct Reader<'a> {
     around: &'a Around,
     positions: Vec<Point>,
     normals: Vec<Point>,
-    textures: usize,
+    textures: Vec<[f64; 2]>,
     faces: Vec<Face>,
     materials: Vec<Material>,
     known: HashMap<String, usize>,
@@ -103,7 +110,7 @@ impl<'a> Reader<'a> {
             around,
             positions: Vec::new(),
             normals: Vec::new(),
-            textures: 0,
+            textures: Vec::new(),
             faces: Vec::new(),
             materials: Vec::new(),
             known: HashMap::new(),
@@ -135,8 +142,17 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             "vt" => {
-                words.number("texture u")?;
-                self.textures += 1;
+                let u = words.number_in("texture u", -FARTHEST_UV, FARTHEST_UV)?;
+                // A curve's texture has no v.
+                let v = match words.next() {
+                    None => 0.0,
+                    Some(word) => Words::new(word, words.line).number_in(
+                        "texture v",
+                        -FARTHEST_UV,
+                        FARTHEST_UV,
+                    )?,
+                };
+                self.textures.push([u, v]);
                 Ok(())
             }
             "f" | "fo" => self.face(words),
@@ -221,11 +237,11 @@ impl<'a> Reader<'a> {
             }
         };
         let position = index("position", self.positions.len())?;
-        index("texture coordinate", self.textures)?;
+        let texture = index("texture coordinate", self.textures.len())?;
         let normal = index("normal", self.normals.len())?;
         let position =
             position.ok_or_else(|| words.found(word, "a corner that begins with a position"))?;
-        Ok(Corner { position, normal })
+        Ok(Corner { position, texture, normal })
     }
 
     fn library(&mut self, words: &mut Words<'_>) -> Result<(), Flaw> {
@@ -251,7 +267,7 @@ impl<'a> Reader<'a> {
         let Ok(text) = std::str::from_utf8(&bytes) else {
             return Err(Problem::NotText.anywhere().within(Some(&file)));
         };
-        let library = mtl::parse(text).map_err(|flaw| flaw.within(Some(&file)))?;
+        let library = mtl::parse(text, self.around).map_err(|flaw| flaw.within(Some(&file)))?;
         for material in library.materials {
             self.known.insert(material.name.clone(), self.materials.len());
             self.materials.push(material);
@@ -268,6 +284,7 @@ impl<'a> Reader<'a> {
         let mut shapes: Vec<Shape> = Vec::with_capacity(self.faces.len());
         let mut skipped: BTreeMap<Skipped, (usize, usize)> = BTreeMap::new();
         let mut grey = None;
+        let mut bare: Option<(usize, usize)> = None;
         for face in &self.faces {
             let corners: Vec<Point> =
                 face.corners.iter().map(|c| self.positions[c.position]).collect();
@@ -277,7 +294,18 @@ impl<'a> Reader<'a> {
                 let normal = |c: &Corner| smooth.get(&(c.position, face.group)).copied();
                 normals = face.corners.iter().filter_map(normal).collect();
             }
-            let faces = Faces::of(&corners, &normals);
+            let textured = face.material.is_some_and(|m| self.materials[m].texture.is_some());
+            let uvs: Vec<[f64; 2]> = match textured {
+                true => {
+                    face.corners.iter().filter_map(|c| Some(self.textures[c.texture?])).collect()
+                }
+                false => Vec::new(),
+            };
+            let uvs = repeated(uvs);
+            if textured && uvs.len() < corners.len() {
+                bare.get_or_insert((face.line, 0)).1 += 1;
+            }
+            let faces = Faces::with_uvs(&corners, &normals, &uvs);
             if let Some(why) = faces.skipped {
                 skipped.entry(why).or_insert((face.line, 0)).1 += 1;
             }
@@ -287,7 +315,10 @@ impl<'a> Reader<'a> {
                     self.materials.len() - 1
                 })
             });
-            let shape = |body: Body| Shape { body, material, uv: None, line: face.line };
+            // Without coordinates all of it shows one point of the picture.
+            let mut uvs = faces.uvs.into_iter();
+            let line = face.line;
+            let shape = |body: Body| Shape { body, material, uv: uvs.next().flatten(), line };
             shapes.extend(faces.bodies.into_iter().map(shape));
         }
         if shapes.is_empty() {
@@ -298,6 +329,10 @@ impl<'a> Reader<'a> {
         warnings.extend(skipped.into_iter().map(|(why, (line, count))| Warning {
             line,
             text: format!("{count} faces {} (this is the first)", why.message()),
+        }));
+        warnings.extend(bare.map(|(line, count)| Warning {
+            line,
+            text: format!("{count} faces with a map have no texture coordinates, or repeat it too often (this is the first)"),
         }));
         warnings.extend(self.without.into_iter().map(|(what, (line, count))| Warning {
             line,
@@ -354,4 +389,16 @@ impl<'a> Reader<'a> {
         }
         sums
     }
+}
+
+/// The same points of a picture that is repeated, as near to it as a face's can be moved together;
+/// none where that isn't near enough.
+fn repeated(mut uvs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    for axis in 0..2 {
+        let low = uvs.iter().map(|uv| uv[axis]).fold(f64::INFINITY, f64::min).floor();
+        if !(0.0..=1.0).contains(&low) && low.is_finite() {
+            uvs.iter_mut().for_each(|uv| uv[axis] -= low);
+        }
+    }
+    if uvs.as_flattened().iter().any(|x| x.abs() > FARTHEST_UV_HELD) { Vec::new() } else { uvs }
 }

@@ -6,13 +6,19 @@
 //! | `illum` 3 to 7 | mirrors: reflection is `Ks` |
 //! | `illum` 4, 6, 7, 9, or none with `d` below 1 | glass: transmission is `Tf`, times 1 − `d` where `d` is given |
 //! | `Ni` | index of what transmits |
+//! | `Ke` | emission |
+//! | `map_Kd` | a picture that diffuse and ambient are multiplied by, by the mesh's coordinates |
 //! | `d` (or 1 − `Tr`) | where it is below 1: diffuse is `d`·`Kd`, shadows are filtered |
 
 use std::collections::BTreeMap;
 
+use whitted::scene::{Filter, Mapping, Pattern, TextureSpec};
+
 use super::line::{Words, lines};
-use crate::document::{Material, Rgb, ShadowThrough, Warning};
-use crate::error::{Flaw, Problem};
+use crate::document::{Material, Rgb, ShadowThrough, Texture, Warning};
+use crate::error::{Flaw, Problem, shown};
+use crate::flash;
+use crate::read::Around;
 
 /// What was read.
 pub(super) struct Library {
@@ -20,19 +26,22 @@ pub(super) struct Library {
     pub(super) warnings: Vec<Warning>,
 }
 
-const WORDS: [&str; 10] = ["newmtl", "Ka", "Kd", "Ks", "Ns", "Ni", "Tf", "d", "Tr", "illum"];
+const WORDS: [&str; 12] =
+    ["newmtl", "Ka", "Kd", "Ks", "Ke", "Ns", "Ni", "Tf", "d", "Tr", "illum", "map_Kd"];
 
 /// Words that the model has no meaning for, by how they begin.
-const WITHOUT: [(&str, &[&str]); 5] = [
+const WITHOUT: [(&str, &[&str]); 4] = [
     (
-        "maps (map_…, bump, disp, decal, refl, norm)",
+        "maps other than map_Kd (map_…, bump, disp, decal, refl, norm)",
         &["map_", "bump", "disp", "decal", "refl", "norm"],
     ),
-    ("emission (Ke)", &["Ke", "ke"]),
     ("physically based values (Pr, Pm, Ps, Pc, aniso)", &["Pr", "Pm", "Ps", "Pc", "aniso"]),
     ("sharpness of reflections", &["sharpness"]),
     ("coefficients of other programs (Kr, Kt, Km, Ko)", &["Kr", "Kt", "Km", "Ko"]),
 ];
+
+/// As bright as a surface may be.
+const BRIGHTEST: f64 = 1000.0;
 
 /// A material as the file has it.
 #[derive(Default)]
@@ -47,10 +56,13 @@ struct Entry {
     filter: Option<Rgb>,
     dissolve: Option<f64>,
     illumination: Option<u8>,
+    emission: Option<Rgb>,
+    map: Option<Texture>,
 }
 
-pub(super) fn parse(text: &str) -> Result<Library, Flaw> {
+pub(super) fn parse(text: &str, around: &Around) -> Result<Library, Flaw> {
     let mut entries: Vec<Entry> = Vec::new();
+    let mut maps = Vec::new();
     let mut without: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for (line, text) in lines(text) {
         let mut words = Words::new(&text, line);
@@ -64,6 +76,12 @@ pub(super) fn parse(text: &str) -> Result<Library, Flaw> {
             entries.push(Entry { name, line, ..Entry::default() });
             continue;
         }
+        if word == "map_Kd"
+            && let Some(entry) = entries.last_mut()
+        {
+            entry.map = map(&mut words, around, &mut maps)?;
+            continue;
+        }
         let lacks = WITHOUT.iter().find(|(_, starts)| starts.iter().any(|s| word.starts_with(s)));
         if let Some((what, _)) = lacks {
             without.entry(what).or_insert((line, 0)).1 += 1;
@@ -75,13 +93,12 @@ pub(super) fn parse(text: &str) -> Result<Library, Flaw> {
         };
         entry.read(word, &mut words)?;
     }
-    let mut warnings: Vec<Warning> = without
-        .into_iter()
-        .map(|(what, (line, count))| Warning {
-            line,
-            text: format!("{what} aren't in the model: {count} left out (this is the first)"),
-        })
-        .collect();
+    let mut warnings = maps;
+    let lacking = without.into_iter().map(|(what, (line, count))| Warning {
+        line,
+        text: format!("{what} aren't in the model: {count} left out (this is the first)"),
+    });
+    warnings.extend(lacking);
     let materials = entries.iter().map(|e| e.material(&mut warnings)).collect::<Result<_, _>>()?;
     Ok(Library { materials, warnings })
 }
@@ -92,6 +109,7 @@ impl Entry {
             "Ka" => self.ambient = Some(color(words, word, 15.9)?),
             "Kd" => self.diffuse = Some(color(words, word, 15.9)?),
             "Ks" => self.specular = Some(color(words, word, 15.9)?),
+            "Ke" | "ke" => self.emission = Some(color(words, word, BRIGHTEST)?),
             "Tf" => self.filter = Some(color(words, word, 1.0)?),
             "Ns" => self.shininess = Some(words.number_in(word, 0.0, 1e6)?),
             "Ni" => self.index = Some((words.number(word)?, words.line)),
@@ -140,7 +158,9 @@ impl Entry {
             Some(10) => say("illum 10 shows shadows alone; here it is lit as illum 1"),
             _ => {}
         }
-        let diffuse = self.diffuse.unwrap_or(like.diffuse);
+        // A picture without a colour is shown as it is.
+        let plain = if self.map.is_some() { [1.0; 3] } else { like.diffuse };
+        let diffuse = self.diffuse.unwrap_or(plain);
         let specular = self.specular.unwrap_or([0.0; 3]);
         let filter = match (self.filter, self.dissolve) {
             (Some(filter), Some(d)) => filter.map(|k| k * (1.0 - d)),
@@ -165,11 +185,37 @@ impl Entry {
             shininess: self.shininess.unwrap_or(like.shininess),
             reflection: if mirrors { specular.map(|k| k.min(1.0)) } else { [0.0; 3] },
             transmission,
+            emission: self.emission.unwrap_or_default(),
+            texture: self.map.clone(),
             index_behind: index,
             shadow: if transmits { ShadowThrough::Filtered } else { ShadowThrough::Opaque },
             ..like
         })
     }
+}
+
+/// The picture of `map_Kd`, or a warning of why there is none.
+fn map(
+    words: &mut Words<'_>,
+    around: &Around,
+    warnings: &mut Vec<Warning>,
+) -> Result<Option<Texture>, Flaw> {
+    let name = words.name("map_Kd")?;
+    let mut left_out = |why: String| {
+        let text = format!("map_Kd \"{}\": {why}; its colour alone instead", shown(&name));
+        warnings.push(Warning { line: words.line, text });
+        Ok(None)
+    };
+    if name.starts_with('-') {
+        return left_out("options of maps (-s, -o, -clamp, …) aren't read".into());
+    }
+    let path = around.file_beside(&name);
+    let image = match flash::picture(&path, flash::MOST_COLORS) {
+        Ok(image) => image.with_filter(Filter::Bilinear),
+        Err(problem) => return left_out(problem.to_string()),
+    };
+    let spec = TextureSpec { mapping: Mapping::Uv, ..TextureSpec::of(Pattern::Image(image)) };
+    Ok(Some(Texture { spec, other: None, file: Some(path), line: words.line }))
 }
 
 /// Three channels, or one for all.

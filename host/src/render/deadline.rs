@@ -62,6 +62,11 @@ fn draw<A: Construct>(
         );
         (progress, *renderer.tally())
     })?;
-    let rendered = Rendered { picture, counts, time: start.elapsed() };
+    let rendered = Rendered {
+        picture,
+        counts,
+        made: whitted::tally::Counts::default(),
+        time: start.elapsed(),
+    };
     Ok(Shown { rendered, progress, side: passes.side() })
 }

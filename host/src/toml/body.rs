@@ -85,13 +85,7 @@ pub(super) fn uv(table: &Table<'_>) -> Result<Option<[[f64; 2]; 3]>, Flaw> {
 }
 
 fn polygon(table: &Table<'_>) -> Result<Vec<Body>, Flaw> {
-    let value = table.need("corners")?;
-    let corners = value.points("corners", "a list of points [[x, y, z], …]")?;
-    if corners.len() < 3 {
-        let found = format!("a list of {} for \"corners\"", corners.len());
-        let wanted = "three points or more".into();
-        return Err(Problem::Found { found, wanted }.at(value.line));
-    }
+    let corners = table.corners()?;
     match split(&corners) {
         Ok(Parts::Convex(kept)) => {
             Ok(vec![Body::Polygon { corners: kept.into_iter().map(|i| corners[i]).collect() }])

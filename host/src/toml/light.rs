@@ -163,13 +163,7 @@ fn area(table: &Table<'_>, kind: Kind) -> Result<Area, Flaw> {
             radius: table.need("radius")?.positive("radius")?,
         },
         _ => {
-            let value = table.need("corners")?;
-            let corners = value.points("corners", "a list of points [[x, y, z], …]")?;
-            if corners.len() < 3 {
-                let found = format!("a list of {} for \"corners\"", corners.len());
-                let wanted = "three points or more".into();
-                return Err(Problem::Found { found, wanted }.at(value.line));
-            }
+            let corners = table.corners()?;
             Area::Polygon { corners: polygon(&corners, "polygon light")? }
         }
     })

@@ -108,6 +108,16 @@ impl<'d> Table<'d> {
         self.get(key).map_or(Ok(default), |v| v.color(key, most))
     }
 
+    /// The corners of a polygon: three points or more.
+    pub(super) fn corners(&self) -> Result<Vec<Point>, Flaw> {
+        let value = self.need("corners")?;
+        let corners = value.points("corners", "a list of points [[x, y, z], …]")?;
+        if corners.len() < 3 {
+            return value.wrong("corners", "three points or more");
+        }
+        Ok(corners)
+    }
+
     fn start(&self, span: Range<usize>) -> usize {
         self.lines.at(span.start)
     }

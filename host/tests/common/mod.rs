@@ -1,4 +1,4 @@
-//! Running the command, and the scenes that lie outside the repository.
+//! Running the command, its pictures, and the scenes that lie outside the repository.
 #![allow(dead_code, unreachable_pub)]
 
 use std::path::{Path, PathBuf};
@@ -30,6 +30,22 @@ pub fn files(directory: &Path) -> Vec<String> {
         entries.map(|e| e.expect("readable").file_name().to_string_lossy().into_owned()).collect();
     names.sort();
     names
+}
+
+/// The picture in a PNG, all channels in a row.
+pub fn pixels(path: &Path) -> Vec<u8> {
+    let file = std::fs::File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+    let mut data = vec![0; reader.output_buffer_size().expect("it is small")];
+    reader.next_frame(&mut data).expect("a whole one");
+    data
+}
+
+/// 10·log₁₀(255²/mean squared difference).
+pub fn decibels(a: &[u8], b: &[u8]) -> f64 {
+    let square = |(a, b): (&u8, &u8)| f64::from(a.abs_diff(*b)).powi(2);
+    let mean = a.iter().zip(b).map(square).sum::<f64>() / a.len() as f64;
+    10.0 * (255.0 * 255.0 / mean).log10()
 }
 
 /// The scenes of the Standard Procedural Databases, which lie beside the repository where they

@@ -95,6 +95,21 @@ pub(crate) const fn intensity(x: f64) -> Option<FixedIntensity> {
     Some(FixedIntensity { mantissa_q15: round(mantissa * 32768.0) as u16, exponent })
 }
 
+/// Exactly the number that makes the same intensity again.
+pub(crate) const fn from_intensity(x: &FixedIntensity) -> f64 {
+    let mut value = x.mantissa_q15 as f64 / 32768.0;
+    let mut exponent = x.exponent;
+    while exponent > 0 {
+        value *= 2.0;
+        exponent -= 1;
+    }
+    while exponent < 0 {
+        value *= 0.5;
+        exponent += 1;
+    }
+    value
+}
+
 pub(crate) const fn exponent(n: f64) -> Option<FixedExponent> {
     if !within(n, 0.0, 1e6) {
         return None;

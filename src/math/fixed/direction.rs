@@ -22,7 +22,9 @@ fn align(v: &[i32; 3]) -> ([i32; 3], i32) {
 /// half, and s as a fraction, `s·2^(2·half − 32)` in Q32.
 #[inline(always)]
 fn inverse_root(s: u32) -> (u32, u32, u32) {
-    let (m, half) = if s < 1 << 30 { (s << 2, 1) } else { (s, 0) };
+    // 1 below 2³⁰, without a branch.
+    let half = (s >> 30).wrapping_sub(1) >> 31;
+    let m = s << (half << 1);
     (reciprocal_root_q29(m), half, m)
 }
 

@@ -149,16 +149,22 @@ struct FixedFactor {
     exponent: i8,
 }
 
-/// A ray with Q12 directions and positions in steps of 1/128.
+/// A ray with Q12 directions.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedCoarse {
     o: [i32; 3],
-    d: [i32; 3],
-    /// o·d.
-    along: i32,
+    d_q12: [i32; 3],
 }
 
-/// Positions lose this many bits in the coarse test.
+/// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least_q17`
+/// steps of the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedDirectionCone {
+    axis: [i32; 3],
+    least_q17: i32,
+}
+
+/// The way to a sphere loses this many bits in the coarse test.
 const COARSE_SHIFT: u32 = 9;
 /// What rounding can add to a coarse distance: half a step for the centre and for the origin,
 /// one for each product.
@@ -186,6 +192,7 @@ impl Arithmetic for Fixed {
     type Edge = FixedEdge;
     type Spot = FixedSpot;
     type Coarse = FixedCoarse;
+    type DirectionCone = FixedDirectionCone;
     type Aim = Aim;
     type Span = i32;
     type Rotation = FixedRotation;
@@ -194,6 +201,8 @@ impl Arithmetic for Fixed {
     const NAME: &'static str = "fixed";
     const REFINE: bool = true;
     const FAR: I16F16 = I16F16::from_bits(FAR);
+    const EVERY_DIRECTION: FixedDirectionCone =
+        FixedDirectionCone { axis: [0; 3], least_q17: i32::MIN };
     const NO_LENGTH: I16F16 = I16F16::ZERO;
     const NO_UNIT: Unit = Unit::ZERO;
     const ONE_UNIT: Unit = Unit::ONE;
@@ -290,13 +299,18 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn leave(p: &[I16F16; 3], n: &[Unit; 3], t: I16F16) -> [I16F16; 3] {
-        // The roundings of a few products, a neighbour's among them; a direction is 2⁻¹⁸ wrong and
-        // a root as much, together 2⁻¹⁷ of the way, doubled.
-        let step = 8 + (t.to_bits() >> 16);
+        let step = Self::clearance(p, t).to_bits();
         let f = |p: I16F16, n: Unit| {
             I16F16::from_bits(p.to_bits().wrapping_add(n.to_bits().wrapping_mul(step) >> 17))
         };
         [f(p[0], n[0]), f(p[1], n[1]), f(p[2], n[2])]
+    }
+
+    #[inline(always)]
+    fn clearance(_: &[I16F16; 3], t: I16F16) -> I16F16 {
+        // The roundings of a few products, a neighbour's among them; a direction is 2⁻¹⁸ wrong and
+        // a root as much, together 2⁻¹⁷ of the way, doubled.
+        I16F16::from_bits(8 + (t.to_bits() >> 16))
     }
 
     #[inline(always)]
@@ -344,14 +358,28 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn coarse(o: &[I16F16; 3], d: &[Unit; 3]) -> FixedCoarse {
-        let o = |i: usize| o[i].to_bits() >> COARSE_SHIFT;
         let d = |i: usize| (d[i].to_bits() + 16) >> 5;
-        round::coarse([o(0), o(1), o(2)], [d(0), d(1), d(2)])
+        FixedCoarse { o: lengths(o), d_q12: [d(0), d(1), d(2)] }
     }
 
     #[inline(always)]
     fn may_hit(ray: &FixedCoarse, center: &[I16F16; 3], r: &FixedRadius, limit: I16F16) -> bool {
         round::may_hit(ray, center, r, limit)
+    }
+
+    fn direction_cone(
+        way: &[I16F16; 3],
+        r: &FixedRadius,
+        blurred: bool,
+    ) -> Option<FixedDirectionCone> {
+        round::direction_cone(&lengths(way), r.bits(), blurred)
+    }
+
+    #[inline(always)]
+    fn in_cone(cone: &FixedDirectionCone, d: &[Unit; 3]) -> bool {
+        // Below 2¹³ steps times 2¹⁷, and by Cauchy's inequality so is every part of the sum.
+        let p = |i: usize| cone.axis[i].wrapping_mul(d[i].to_bits());
+        p(0).wrapping_add(p(1)).wrapping_add(p(2)) >= cone.least_q17
     }
 
     #[inline(always)]
@@ -468,7 +496,8 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn gather(a: I16F16, b: I16F16) -> I16F16 {
-        a.saturating_add(b)
+        let sum = a.to_bits().wrapping_add(b.to_bits());
+        I16F16::from_bits(if sum < 0 { i32::MAX } else { sum })
     }
 
     #[inline(always)]

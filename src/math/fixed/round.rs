@@ -1,7 +1,8 @@
 //! Spheres and what is round: squares in the exponent of the radius.
 
-use super::kernel::{length_times_unit, shift};
-use super::{COARSE_SHIFT, FixedCoarse, FixedRadius, Unit};
+use super::kernel::{length_times_unit, magnitude, shift};
+use super::{COARSE_SHIFT, FixedCoarse, FixedDirectionCone, FixedRadius, Unit};
+use crate::math::root::{self, sqrt_u32};
 use ::fixed::types::I16F16;
 
 impl FixedRadius {
@@ -83,13 +84,6 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
-/// See `Arithmetic::coarse`.
-#[inline(always)]
-pub(super) fn coarse(o: [i32; 3], d: [i32; 3]) -> FixedCoarse {
-    let p = |i: usize| o[i].wrapping_mul(d[i]);
-    FixedCoarse { o, d, along: p(0).wrapping_add(p(1)).wrapping_add(p(2)) }
-}
-
 /// See `Arithmetic::may_hit`.
 #[inline(always)]
 pub(super) fn may_hit(
@@ -98,12 +92,11 @@ pub(super) fn may_hit(
     r: &FixedRadius,
     limit: I16F16,
 ) -> bool {
-    // (c − o)·d as c·d − o·d, whose second part is the ray's: most spheres are out after that.
-    // It may overflow on the way, which a wrapping difference doesn't mind.
-    let c = |i: usize| center[i].to_bits() >> COARSE_SHIFT;
+    // In steps of 1/128: most spheres are out after one product.
+    let c = |i: usize| center[i].to_bits().wrapping_sub(ray.o[i]) >> COARSE_SHIFT;
     let c = [c(0), c(1), c(2)];
-    let p = |i: usize| c[i].wrapping_mul(ray.d[i]);
-    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)).wrapping_sub(ray.along) >> 12;
+    let p = |i: usize| c[i].wrapping_mul(ray.d_q12[i]);
+    let t = p(0).wrapping_add(p(1)).wrapping_add(p(2)) >> 12;
     // Rounding moves each component of the direction by 2⁻¹³: a sphere that is hit, at most
     // t + r away, by less than 1.4·(t + r)/2¹², of which the radius has its part.
     let r = (r.coarse as i32).wrapping_add(t >> 11);
@@ -114,7 +107,7 @@ pub(super) fn may_hit(
     }
     let mut square = 0u32;
     for i in 0..3 {
-        let f = c[i].wrapping_sub(ray.o[i]).wrapping_sub(t.wrapping_mul(ray.d[i]) >> 12);
+        let f = c[i].wrapping_sub(t.wrapping_mul(ray.d_q12[i]) >> 12);
         if f.wrapping_add(r) as u32 > reach {
             return false;
         }
@@ -122,4 +115,32 @@ pub(super) fn may_hit(
     }
     // beyond 2¹⁵ steps (256 units) the squares don't fit, and the three bounds must do
     r >= 1 << 15 || square <= r.wrapping_mul(r) as u32
+}
+
+/// See `Arithmetic::direction_cone`.
+///
+/// A line in direction d through the origin passes the point v at √(|v|² − (d·v)²), so it comes
+/// nearer than r where d·v > √(|v|² − r²).
+#[inline(never)]
+pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> Option<FixedDirectionCone> {
+    // Twelve bits a component.
+    let bits = magnitude(way[0]) | magnitude(way[1]) | magnitude(way[2]) | 1;
+    let (_, zeros) = root::normalize(bits);
+    let shift = 20u32.saturating_sub(zeros);
+    let axis = way.map(|x| x >> shift);
+    // The axis is rounded by less than two steps, the radius by one. Directions are wrong by 2⁻¹⁵ of
+    // the way, a fraction of a step; those that `normalize` makes by less than 2⁻¹⁴ of a way
+    // that is at most 2048 units long: ⅛ unit.
+    let blur = if blurred { (1 << 13) >> shift } else { 0 };
+    let reach = (r >> shift).wrapping_add(4).wrapping_add(blur) as u32;
+    let square = axis.iter().map(|x| x.wrapping_mul(*x) as u32).fold(0, u32::wrapping_add);
+    if reach > 1 << 13 || reach.wrapping_mul(reach) >= square {
+        return None;
+    }
+    // A step for the root's rounding, another for a direction that isn't quite a unit long.
+    let least = sqrt_u32(square.wrapping_sub(reach.wrapping_mul(reach))).saturating_sub(3);
+    if least == 0 {
+        return None;
+    }
+    Some(FixedDirectionCone { axis, least_q17: (least << 17) as i32 })
 }

@@ -41,6 +41,10 @@ macro_rules! constructors {
                 within(x, 0.0, 1e12)
             }
 
+            pub(crate) const fn from_intensity(x: &$f) -> f64 {
+                *x as f64
+            }
+
             pub(crate) const fn exponent(n: f64) -> Option<$f> {
                 within(n, 0.0, 1e6)
             }

@@ -70,6 +70,13 @@ pub struct FloatSpot<F> {
     slack: F,
 }
 
+/// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloatDirectionCone<F> {
+    axis: [F; 3],
+    least: F,
+}
+
 /// A factor and its reciprocal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FloatScale<F> {
@@ -97,6 +104,7 @@ macro_rules! float {
             type Edge = FloatEdge<$f>;
             type Spot = FloatSpot<$f>;
             type Coarse = ();
+            type DirectionCone = FloatDirectionCone<$f>;
             type Aim = $f;
             type Span = $f;
             type Rotation = [[$f; 3]; 3];
@@ -105,6 +113,8 @@ macro_rules! float {
             const NAME: &'static str = stringify!($f);
             const REFINE: bool = false;
             const FAR: $f = 1e9;
+            const EVERY_DIRECTION: FloatDirectionCone<$f> =
+                FloatDirectionCone { axis: [0.0; 3], least: -1.0 };
             const NO_LENGTH: $f = 0.0;
             const NO_UNIT: $f = 0.0;
             const ONE_UNIT: $f = 1.0;
@@ -182,9 +192,14 @@ macro_rules! float {
 
             #[inline(always)]
             fn leave(p: &[$f; 3], n: &[$f; 3], t: $f) -> [$f; 3] {
+                Self::along(p, Self::clearance(p, t), n)
+            }
+
+            #[inline(always)]
+            fn clearance(p: &[$f; 3], t: $f) -> $f {
                 // Eight times the rounding of the numbers that went into the position.
                 let size = p[0].abs() + p[1].abs() + p[2].abs() + t;
-                Self::along(p, size * (8.0 * $eps), n)
+                size * (8.0 * $eps)
             }
 
             #[inline(always)]
@@ -231,6 +246,29 @@ macro_rules! float {
 
             #[inline(always)]
             fn coarse(_: &[$f; 3], _: &[$f; 3]) {}
+
+            fn direction_cone(
+                way: &[$f; 3],
+                r: &FloatRadius<$f>,
+                _: bool,
+            ) -> Option<FloatDirectionCone<$f>> {
+                // A line in direction d through the origin passes the point v at
+                // √(|v|² − (d·v)²). Far more is allowed for than rounding takes, be the way past the
+                // origin a thousand times as long as that to the sphere.
+                let square = Self::project(way, way);
+                let reach = r.r * 1.001 + $sqrt(square) * (8192.0 * $eps);
+                let rest = square - reach * reach;
+                if rest > 0.0 {
+                    Some(FloatDirectionCone { axis: *way, least: $sqrt(rest) * 0.9999 })
+                } else {
+                    None
+                }
+            }
+
+            #[inline(always)]
+            fn in_cone(cone: &FloatDirectionCone<$f>, d: &[$f; 3]) -> bool {
+                Self::dot(&cone.axis, d) >= cone.least
+            }
 
             #[inline(always)]
             fn barycentric(

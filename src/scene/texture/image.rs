@@ -115,6 +115,26 @@ impl<'a> Image<'a> {
         (self.width, self.height)
     }
 
+    /// The bytes of the pixels.
+    pub const fn bytes(&self) -> &'a [u8] {
+        self.bytes
+    }
+
+    /// How the pixels lie in the bytes.
+    pub const fn texels(&self) -> Texels<'a> {
+        self.texels
+    }
+
+    /// How a colour is found between the centres of pixels.
+    pub const fn filter(&self) -> Filter {
+        self.filter
+    }
+
+    /// What lies beyond the border.
+    pub const fn wrap(&self) -> Wrap {
+        self.wrap
+    }
+
     /// The linear colour at a point in pixels of 2⁻¹⁶ from the lower left corner, in 2⁻¹⁶.
     pub(super) fn at(&self, q: [i32; 2]) -> Rgb<i32> {
         if self.filter == Filter::Nearest {

@@ -1,10 +1,11 @@
 //! Single precision.
 
+/// The bathroom, as the build script baked it.
 #[allow(dead_code, unreachable_pub, reason = "as it was baked")]
 #[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
-#[rustfmt::skip]
-#[path = "bathroom_f32.rs"]
-mod bathroom;
+mod bathroom {
+    include!(concat!(env!("OUT_DIR"), "/bathroom_f32.rs"));
+}
 #[path = "ftb.rs"]
 mod ftb;
 #[cfg(all(
@@ -15,6 +16,8 @@ mod ftb;
 mod gfxcat;
 #[path = "limit.rs"]
 mod limit;
+#[path = "mirrors.rs"]
+mod mirrors;
 #[path = "raystones.rs"]
 mod raystones;
 #[path = "../../../../examples/showcase/scene.rs"]
@@ -46,6 +49,11 @@ static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
     view.view(Shot { scene: &SAMPLED, camera: &limit::CAMERA, depth: 4, output: LINEAR })
+}
+
+pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {
+    let (scene, camera) = (&mirrors::SCENE, &mirrors::CAMERA);
+    view.view(Shot { scene, camera, depth: 8, output: Output::SRGB })
 }
 
 #[inline(always)]

@@ -1,9 +1,10 @@
 //! Fixed point.
 
+/// The bathroom, as the build script baked it.
 #[allow(dead_code, unreachable_pub, reason = "as it was baked")]
-#[rustfmt::skip]
-#[path = "bathroom_fixed.rs"]
-mod bathroom;
+mod bathroom {
+    include!(concat!(env!("OUT_DIR"), "/bathroom_fixed.rs"));
+}
 #[path = "ftb.rs"]
 mod ftb;
 #[cfg(any(feature = "counted", not(target_os = "none")))]
@@ -11,6 +12,8 @@ mod ftb;
 mod gfxcat;
 #[path = "limit.rs"]
 mod limit;
+#[path = "mirrors.rs"]
+mod mirrors;
 #[path = "raystones.rs"]
 mod raystones;
 #[path = "../../../../examples/showcase/scene.rs"]
@@ -39,6 +42,11 @@ static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
     view.view(Shot { scene: &SAMPLED, camera: &limit::CAMERA, depth: 4, output: LINEAR })
+}
+
+pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {
+    let (scene, camera) = (&mirrors::SCENE, &mirrors::CAMERA);
+    view.view(Shot { scene, camera, depth: 8, output: Output::SRGB })
 }
 
 #[inline(always)]

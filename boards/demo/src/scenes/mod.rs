@@ -44,6 +44,9 @@ pub trait Shots: Arithmetic {
 
     /// Does something with the limit scene, in a type that all samplings are compiled for.
     fn sampled<V: View<Self>>(view: V) -> V::Output;
+
+    /// Does something with two mirrors that face each other, eight generations deep.
+    fn mirrors<V: View<Self>>(view: V) -> V::Output;
 }
 
 /// What pictures of jobs may be sampled by.
@@ -61,6 +64,10 @@ impl Shots for Fixed {
     fn sampled<V: View<Self>>(view: V) -> V::Output {
         fixed::sampled(view)
     }
+
+    fn mirrors<V: View<Self>>(view: V) -> V::Output {
+        fixed::mirrors(view)
+    }
 }
 
 impl Shots for f32 {
@@ -71,5 +78,9 @@ impl Shots for f32 {
 
     fn sampled<V: View<Self>>(view: V) -> V::Output {
         float::sampled(view)
+    }
+
+    fn mirrors<V: View<Self>>(view: V) -> V::Output {
+        float::mirrors(view)
     }
 }

@@ -1,0 +1,143 @@
+//! The stack of frames on the emulated boards: at most what `docs/memory.md` says, for every depth
+//! that there may be memory for.
+
+use std::time::Duration;
+
+use whitted::frame::Sampling;
+use whitted_demo::depths::{self, DEEPEST, ROW};
+use whitted_demo::frame::MAX_DEPTH;
+use whitted_demo::job::{ArithName, Job, MAX_SAMPLES, MAX_WIDTH};
+
+use crate::firmware::result;
+use crate::machine::{self, Log, MACHINES, Machine, Record};
+use crate::report::Report;
+use crate::setup;
+use crate::shell::boards;
+
+/// A small frame for each depth takes less than a second.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Bytes of `Work` without and for each generation of rays, in either arithmetic.
+const WORK: [u64; 2] = [420, 48];
+/// Bytes of stack that each generation takes at most: twice what `Work` grows by, since a compiler
+/// may make it in one place and move it to another.
+const GENERATION: u64 = 96;
+/// Bytes of a sample that a sampling remembers, and of a pixel in a row.
+const SAMPLE: u64 = 16;
+const PIXEL: u64 = 3;
+
+/// Bytes of stack that a frame takes at most beside generations, row and samples: what doesn't
+/// depend on the depth of the tracer's memory, its calls, and the renderer.
+const fn calls(arith: ArithName) -> u64 {
+    match arith {
+        ArithName::Fixed => 2_560,
+        ArithName::F32 => 1_920,
+    }
+}
+
+/// The bound on a frame's stack.
+fn bound(arith: ArithName, depth: usize, row: u64, samples: usize) -> u64 {
+    calls(arith) + GENERATION * depth as u64 + row + SAMPLE * samples as u64
+}
+
+/// A line of the table: a core's image at every depth.
+struct Row {
+    core: &'static str,
+    arith: ArithName,
+    stacks: Vec<u64>,
+}
+
+/// The boards that are checked each time: one for each instruction set. (The Cortex-M7 runs the
+/// image of the M4F, that of the M33 differs little, and the two cores have the M3's.)
+fn checked() -> impl Iterator<Item = &'static Machine> {
+    MACHINES
+        .iter()
+        .filter(|m| matches!(m.machine, "microbit" | "lm3s6965evb" | "mps2-an386" | "virt"))
+}
+
+/// Each depth's frame, on some of the boards.
+pub(crate) fn check(report: &mut Report) {
+    for machine in checked() {
+        let name = format!("{}: stack at depths 1 to {DEEPEST}", machine.core);
+        report.check(&name, || {
+            for row in depths(machine)? {
+                println!("     {}: {:?}", row.arith.name(), row.stacks);
+            }
+            Ok(())
+        });
+    }
+}
+
+/// The command: every board, as the table of `docs/memory.md`.
+pub(crate) fn run() -> Result<(), String> {
+    setup::run()?;
+    let heads: String = (1..=DEEPEST).map(|depth| format!(" {depth} |")).collect();
+    println!("| core | arithmetic |{heads}\n|---|---|{}", "--:|".repeat(DEEPEST));
+    for machine in &MACHINES {
+        for Row { core, arith, stacks } in depths(machine)? {
+            let cells: String = stacks.iter().map(|bytes| format!(" {bytes} |")).collect();
+            println!("| {core} | {} |{cells}", arith.name());
+        }
+    }
+    Ok(())
+}
+
+/// Runs a board's image and compares pictures, memory and stack.
+fn depths(machine: &Machine) -> Result<Vec<Row>, String> {
+    let image = machine::build(&boards().join(machine.board), "depths", machine.target)?;
+    let log = machine.run::<&str>(&image, &[], &image.with_extension("ppm"), PATIENCE)?;
+    let mut rows = Vec::new();
+    for arith in ArithName::ALL {
+        let stacks = log
+            .records("depth")
+            .filter(|record| record.get("arith") == Ok(arith.name()))
+            .zip(depths::all(arith))
+            .map(|(record, here)| one(record, arith, &here))
+            .collect::<Result<Vec<_>, _>>()?;
+        match (stacks.len(), arith) {
+            (DEEPEST, _) => rows.push(Row { core: machine.core, arith, stacks }),
+            // Software floating point is left out.
+            (0, ArithName::F32) if !machine.float => {}
+            (n, _) => return Err(format!("{n} depths in {}", arith.name())),
+        }
+    }
+    Ok(rows)
+}
+
+/// The stack at a depth, if all is as it should be.
+fn one(record: Record<'_>, arith: ArithName, here: &depths::Depth) -> Result<u64, String> {
+    let (depth, memory) = (record.number("depth")?, record.number("memory")?);
+    let sum = format!("{:016x}", (here.draw)().value());
+    if depth != here.depth as u64 || record.get("checksum")? != sum {
+        return Err(format!("{record:?}, on the host depth {} has {sum}", here.depth));
+    }
+    if memory != WORK[0] + WORK[1] * depth {
+        return Err(format!("{memory} bytes of Work at depth {depth}"));
+    }
+    let stack = record.number("stack")?;
+    within(stack, bound(arith, here.depth, ROW as u64, 0))
+        .map_err(|e| format!("depth {depth}: {e}"))
+}
+
+fn within(stack: u64, bound: u64) -> Result<u64, String> {
+    if stack > 0 && stack <= bound {
+        Ok(stack)
+    } else {
+        Err(format!("{stack} bytes of stack; at most {bound} are documented"))
+    }
+}
+
+/// The frames of a log are within the bound.
+pub(crate) fn frames(log: &Log, jobs: &[Job]) -> Result<(), String> {
+    let row = PIXEL * u64::from(MAX_WIDTH);
+    for job in jobs {
+        let samples = if job.sampling == Sampling::Center { 0 } else { MAX_SAMPLES };
+        let stack = result(log, job)?.number("stack")?;
+        within(stack, bound(job.arith, MAX_DEPTH, row, samples))
+            .map_err(|e| format!("{job}: {e}"))?;
+    }
+    for shown in log.records("shown") {
+        within(shown.number("stack")?, bound(ArithName::Fixed, MAX_DEPTH, row, 0))?;
+    }
+    Ok(())
+}
