@@ -1,9 +1,12 @@
 //! What the targets share.
 
-use whitted::blob::{Blob, seal};
+use whitted::blob::{Blob, Room, seal};
 use whitted::frame::{Output, Renderer, Rgb888, Sample, Settings};
 use whitted::math::Fixed;
-use whitted::scene::{Camera, Light, Material, MaterialSpec, Scene};
+use whitted::scene::{
+    Absorption, Area, AreaLight, AreaLightSpec, Camera, FanCorner, Light, Material, MaterialSpec,
+    Pattern, Scene, Texture, TextureSpec,
+};
 use whitted::trace::Work;
 use whitted_host::bake::{Baked, Construct};
 use whitted_host::document::Size;
@@ -52,7 +55,22 @@ macro_rules! look_into {
                 let Ok(blob) = Blob::<$a>::open(bytes) else { return };
                 let mut materials = [Material::<$a>::new(MaterialSpec::BLACK); 16];
                 let mut lights = [Light::<$a>::point([0.0; 3], [0.0; 3]); 8];
-                let Ok(scene) = blob.scene(&mut materials, &mut lights) else { return };
+                let none = AreaLightSpec {
+                    area: Area::Sphere { center: [0.0; 3], radius: 1.0 },
+                    radiance: [1.0; 3],
+                    error: AreaLightSpec::ERROR,
+                    samples: AreaLightSpec::SAMPLES,
+                    body: None,
+                };
+                let room = Room {
+                    materials: &mut materials,
+                    lights: &mut lights,
+                    area_lights: &mut [AreaLight::<$a>::new(none); 4],
+                    fans: &mut [FanCorner::NONE; 32],
+                    textures: &mut [Texture::<$a>::new(TextureSpec::of(Pattern::Checker)); 8],
+                    absorptions: &mut [Absorption::<$a>::new([0.0; 3], [0.0; 3]); 4],
+                };
+                let Ok(scene) = blob.scene_in(room) else { return };
                 let Ok(camera) = blob.camera() else { return };
                 trace::<$a>(&scene, &camera);
             }

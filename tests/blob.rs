@@ -1,14 +1,17 @@
 //! Blobs: what was baked is what is read, and hostile bytes are refused or harmless.
 
 use whitted::blob::{
-    ALIGNMENT, BackgroundSpec, Blob, BlobError, CameraSpec, Content, SettingSpec, seal,
+    ALIGNMENT, AbsorptionSpec, BackgroundSpec, Blob, BlobError, CameraSpec, Content, Room,
+    SelectionSpec, SettingSpec, seal,
 };
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
+use whitted::gather::{Indirect, IrradianceCache, Record, RecordSpec};
 use whitted::math::Fixed;
 use whitted::octree::{Built, Cube, Extent, Limits, build_into};
 use whitted::scene::{
-    Camera, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, PatternSpec, Scene, Shadow,
-    Shapes,
+    Absorption, Area, AreaLight, AreaLightSpec, Camera, Falloff, FanCorner, Filter, Image, Light,
+    LightSpec, Mapping, Material, MaterialSpec, Parts, Pattern, PatternSpec, Scene, Selection,
+    Shadow, Shapes, Texels, Texture, TextureSpec, TriangleUv, Wrap,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, SmoothTriangle, Sphere, Triangle,
@@ -25,10 +28,13 @@ const MATERIALS: [MaterialSpec; 3] = [
         specular: [0.4; 3],
         shininess: 20.0,
         reflection: [0.3; 3],
+        texture: Some(0),
+        bump: Some(2),
         ..MaterialSpec::BLACK
     },
     MaterialSpec {
         transmission: [0.8, 0.9, 0.8],
+        absorption: Some(0),
         index_behind: 1.5,
         shadow: Shadow::Filtered,
         ..MaterialSpec::BLACK
@@ -36,6 +42,7 @@ const MATERIALS: [MaterialSpec; 3] = [
     MaterialSpec {
         diffuse: [0.6; 3],
         ambient: [0.5; 3],
+        texture: Some(1),
         pattern: Some(PatternSpec { cell: [0.5, 0.0, 0.5], offset: [0.1, 0.0, 0.0], other: 0 }),
         ..MaterialSpec::BLACK
     },
@@ -58,6 +65,71 @@ const LIGHTS: [LightSpec; 3] = [
     },
 ];
 
+const ABSORPTIONS: [AbsorptionSpec; 1] = [[[0.0; 3], [0.5, 0.1, 0.3]]];
+
+const PICTURE: Image<'static> = Image::new(
+    3,
+    2,
+    Texels::Indexed { bits: 2, palette: &[[200, 30, 30], [240, 240, 220], [20, 40, 90]] },
+    &[0b0001_1000, 0b0110_0000],
+);
+
+const TEXTURES: [TextureSpec<'static>; 3] = [
+    TextureSpec { mapping: Mapping::Uv, ..TextureSpec::of(Pattern::Image(PICTURE)) },
+    TextureSpec {
+        size: [0.5, 0.5, 0.0],
+        ..TextureSpec::of(Pattern::Image(
+            PICTURE.with_filter(Filter::Bilinear).with_wrap(Wrap::Clamp),
+        ))
+    },
+    TextureSpec {
+        size: [0.3; 3],
+        height: 0.05,
+        ..TextureSpec::of(Pattern::Marble { octaves: 2, turbulence: 0.5 })
+    },
+];
+
+const LAMP: [[f64; 3]; 4] = [[-1.0, 4.0, 2.0], [0.0, 4.0, 2.0], [0.3, 4.0, 3.0], [-1.0, 4.0, 3.0]];
+
+const AREA_LIGHTS: [AreaLightSpec<'static>; 2] = [
+    AreaLightSpec {
+        area: Area::Polygon { corners: &LAMP, first: 0 },
+        radiance: [2.0, 2.0, 1.5],
+        error: 0.5,
+        samples: [1, 2],
+        body: None,
+    },
+    AreaLightSpec {
+        area: Area::Sphere { center: [2.0, 3.0, 1.0], radius: 0.2 },
+        radiance: [5.0, 6.0, 7.0],
+        error: 0.5,
+        samples: [1, 2],
+        body: Some(1),
+    },
+];
+
+const RECORDS: [RecordSpec; 2] = [
+    RecordSpec {
+        position: [0.0, 0.0, 3.0],
+        normal: [0.0, 1.0, 0.0],
+        reach: 2.0,
+        irradiance: [0.2, 0.3, 0.4],
+        translation: [0.5, 0.0, -0.25],
+        rotation: [0.1, 0.0, 0.2],
+    },
+    RecordSpec {
+        position: [0.0, 0.5, 2.5],
+        normal: [0.0, 0.0, -1.0],
+        reach: 1.5,
+        irradiance: [0.1, 0.05, 0.0],
+        translation: [0.0; 3],
+        rotation: [0.0; 3],
+    },
+];
+
+const UV: [[f64; 2]; 3] = [[0.0, 0.0], [2.0, 0.0], [1.0, 1.5]];
+const ERROR: f64 = 0.4;
+
 const SETTING: SettingSpec = SettingSpec {
     camera: CameraSpec {
         eye: [0.2, 1.5, -4.0],
@@ -77,6 +149,8 @@ const SETTING: SettingSpec = SettingSpec {
     lossy: false,
     cutoff: 1.0 / 255.0,
     depth: 4,
+    selection: SelectionSpec::Above(0.001),
+    light_jitter: Some(7),
 };
 
 /// Bytes that start where a blob's must.
@@ -124,6 +198,8 @@ macro_rules! arithmetic {
                 cylinders: Vec<Cylinder<A>>,
                 cones: Vec<Cone<A>>,
                 planes: Vec<Plane<A>>,
+                uvs: Vec<TriangleUv>,
+                records: Vec<Record<A>>,
                 words: Vec<u32>,
                 cube: Cube,
             }
@@ -151,6 +227,8 @@ macro_rules! arithmetic {
                     cylinders: vec![Cylinder::<A>::new([1.0, 0.0, 5.0], [1.0, 1.0, 5.0], 0.2, 0)],
                     cones: vec![Cone::<A>::new([-1.5, 1.0, 4.0], 0.3, [-1.5, 2.0, 4.0], 0.0, 0)],
                     planes: vec![Plane::<A>::new(up, -0.01, 2)],
+                    uvs: vec![TriangleUv::new(UV); 2],
+                    records: RECORDS.map(|spec| Record::<A>::new(spec)).to_vec(),
                     words: vec![0; 4096],
                     cube: Cube { origin: [0; 3], log2_side: 0 },
                 };
@@ -187,12 +265,17 @@ macro_rules! arithmetic {
                         discs: &kinds.discs,
                         cylinders: &kinds.cylinders,
                         cones: &kinds.cones,
+                        uvs: &kinds.uvs,
                         ..Shapes::EMPTY
                     },
                     planes: &kinds.planes,
                     tree: Some((&kinds.words, kinds.cube, STEP)),
                     materials: &MATERIALS,
                     lights: &LIGHTS,
+                    absorptions: &ABSORPTIONS,
+                    textures: &TEXTURES,
+                    area_lights: &AREA_LIGHTS,
+                    cache: Some((&kinds.records, ERROR)),
                     setting: SETTING,
                     uses: 0,
                 }
@@ -226,7 +309,17 @@ macro_rules! arithmetic {
                 let mut materials = [Material::<A>::new(MaterialSpec::BLACK); 4];
                 let mut lights = [Light::<A>::point([0.0; 3], [0.0; 3]); 4];
                 let camera = blob.camera()?;
-                Ok(render(&blob.scene(&mut materials, &mut lights)?, &camera, side))
+                let light = AreaLight::<A>::new(AREA_LIGHTS[1]);
+                let texture = Texture::<A>::new(TextureSpec::of(Pattern::Checker));
+                let room = Room {
+                    materials: &mut materials,
+                    lights: &mut lights,
+                    area_lights: &mut [light; 2],
+                    fans: &mut [FanCorner::NONE; 3],
+                    textures: &mut [texture; 3],
+                    absorptions: &mut [Absorption::<A>::new([0.0; 3], [0.0; 3])],
+                };
+                Ok(render(&blob.scene_in(room)?, &camera, side))
             }
 
             #[test]
@@ -240,7 +333,19 @@ macro_rules! arithmetic {
                 use whitted::octree::Octree;
                 use whitted::scene::{Ambient, Background, Rules};
                 let tree = Octree::<A>::try_new(&kinds.words, 9, &kinds.cube, STEP).unwrap();
+                let textures = TEXTURES.map(|spec| Texture::<A>::new(spec));
+                let absorptions = ABSORPTIONS.map(|[a, b]| Absorption::<A>::new(a, b));
+                let fan = AreaLight::<A>::fan::<3>(&LAMP);
+                let area_lights = AREA_LIGHTS.map(|spec| AreaLight::<A>::new(spec));
                 let scene = Scene::<A>::new(Parts {
+                    uvs: &kinds.uvs,
+                    textures: &textures,
+                    absorptions: &absorptions,
+                    area_lights: &area_lights,
+                    light_corners: &fan,
+                    light_jitter: SETTING.light_jitter,
+                    selection: Selection::<A>::above(0.001),
+                    indirect: Indirect::Cache(IrradianceCache::<A>::new(&kinds.records, ERROR)),
                     spheres: &kinds.spheres,
                     triangles: &kinds.triangles,
                     smooth_triangles: &kinds.smooth,
@@ -340,6 +445,26 @@ macro_rules! arithmetic {
                 let many = Content { lights: &[LIGHTS[0]; 5], ..content };
                 let room = BlobError::Room { materials: 3, lights: 5 };
                 assert_eq!(shown(written(&many).bytes(), 1), Err(room));
+                let none = Blob::<A>::open(written(&content).bytes()).map(|blob| {
+                    let mut materials = [Material::<A>::new(MaterialSpec::BLACK); 4];
+                    let mut lights = [Light::<A>::point([0.0; 3], [0.0; 3]); 4];
+                    let scene: Result<Scene<'_, A>, _> = blob.scene(&mut materials, &mut lights);
+                    scene.map(drop)
+                });
+                let wanted =
+                    BlobError::RoomBesides { area_lights: 2, fans: 3, textures: 3, absorptions: 1 };
+                assert_eq!(none, Ok(Err(wanted)));
+                let few = Content { textures: &TEXTURES[..2], ..content };
+                assert!(matches!(shown(written(&few).bytes(), 1), Err(BlobError::Scene(_))));
+                let steep = TextureSpec { height: f64::NAN, ..TEXTURES[2] };
+                let bad = Content { textures: &[TEXTURES[0], TEXTURES[1], steep], ..content };
+                assert!(matches!(shown(written(&bad).bytes(), 1), Err(BlobError::Value(_))));
+                let bad = Content { absorptions: &[[[-1.0; 3]; 2]], ..content };
+                assert!(matches!(shown(written(&bad).bytes(), 1), Err(BlobError::Value(_))));
+                let bad = Content { cache: Some((&kinds.records, 7.0)), ..content };
+                assert!(matches!(shown(written(&bad).bytes(), 1), Err(BlobError::Value(_))));
+                let bad = Content { cache: Some((&[Record::NONE], ERROR)), ..content };
+                assert!(matches!(shown(written(&bad).bytes(), 1), Err(BlobError::Shape { .. })));
                 let dark = MaterialSpec { reflection: [2.0; 3], ..MATERIALS[0] };
                 let bad = Content { materials: &[dark; 3], ..content };
                 assert!(matches!(shown(written(&bad).bytes(), 1), Err(BlobError::Value(_))));

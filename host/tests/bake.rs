@@ -6,14 +6,19 @@ use std::fs;
 use std::path::Path;
 
 use common::{errors, files, said, spd, whitted};
-use whitted::blob::Blob;
+use whitted::blob::{Blob, Room};
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::gather::Record;
 use whitted::math::Fixed;
-use whitted::scene::{Camera, Light, Material, MaterialSpec, Scene};
+use whitted::scene::{
+    Absorption, Area, AreaLight, AreaLightSpec, Camera, FanCorner, Light, Material, MaterialSpec,
+    Pattern, Scene, Texture, TextureSpec,
+};
+use whitted::tally::Counts;
 use whitted::trace::Work;
 use whitted_host::bake::{Baked, Glow, Thrift};
 use whitted_host::document::{Indirect, Size};
+use whitted_host::indirect::Pools;
 use whitted_host::read;
 
 const SIZE: Size = Size { width: 48, height: 48 };
@@ -41,11 +46,33 @@ fn baked(file: &Path) -> (usize, usize) {
     let blob = Blob::<Fixed>::open(bytemuck::cast_slice(&aligned)).unwrap();
     let mut materials = vec![Material::<Fixed>::new(MaterialSpec::BLACK); 1024];
     let mut lights = [Light::<Fixed>::point([0.0; 3], [0.0; 3]); 8];
-    let scene = blob.scene(&mut materials, &mut lights).unwrap();
+    let none = AreaLightSpec {
+        area: Area::Sphere { center: [0.0; 3], radius: 1.0 },
+        radiance: [1.0; 3],
+        error: AreaLightSpec::ERROR,
+        samples: AreaLightSpec::SAMPLES,
+        body: None,
+    };
+    let room = Room {
+        materials: &mut materials,
+        lights: &mut lights,
+        area_lights: &mut [AreaLight::<Fixed>::new(none); 8],
+        fans: &mut [FanCorner::NONE; 16],
+        textures: &mut [Texture::<Fixed>::new(TextureSpec::of(Pattern::Checker)); 64],
+        absorptions: &mut [Absorption::<Fixed>::new([0.0; 3], [0.0; 3]); 8],
+    };
+    let scene = blob.scene_in(room).unwrap();
     let camera = blob.camera().unwrap();
     // The picture doesn't depend on the tree.
     let host = Baked::<Fixed>::new(&document).unwrap();
-    let wanted = host.with_scene(|scene| render(scene, &host.camera(SIZE).unwrap())).unwrap();
+    let camera_there = host.camera(SIZE).unwrap();
+    let indirect = document.indirect;
+    let wanted = host.with_scene(|scene| {
+        let (mut pools, mut counts) = (Pools::default(), Counts::default());
+        let lit = pools.light(&host, scene, &camera_there, SIZE, indirect, &mut counts).unwrap();
+        render(&lit, &camera_there)
+    });
+    let wanted = wanted.unwrap();
     assert!(render(&scene, &camera) == wanted);
     (bytes.len(), document.shapes.len())
 }
@@ -59,6 +86,14 @@ fn scenes_of_thousands_fit_and_look_as_before() {
         eprintln!("{name}: {bytes} bytes, {shapes} shapes, {each:.1} each");
         assert!(each <= most, "{name}: {each}");
         assert!(name != "balls" || bytes < 300_000);
+    }
+}
+
+#[test]
+fn blobs_hold_textures_media_area_lights_and_records() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for file in ["scenes/textures.toml", "../boards/baked/lights.toml", "scenes/box.toml"] {
+        baked(&root.join(file));
     }
 }
 
@@ -99,12 +134,15 @@ radiance = 3
 fn what_a_blob_cannot_hold_is_named() {
     let place = tempfile::tempdir().unwrap();
     let indirect = "\n[indirect]\ntype = 'virtual-lights'\n";
-    for (name, more) in [("area.toml", LIGHTS), ("indirect.toml", indirect)] {
+    let solid = "\n[[solid]]\nunion = [{ sphere = { center = [0, 3, 0], radius = 1 } }, \
+                 { sphere = { center = [0, 4, 0], radius = 1 } }]\n";
+    for (name, more) in [("area.toml", LIGHTS), ("indirect.toml", indirect), ("solid.toml", solid)]
+    {
         fs::write(place.path().join(name), format!("{SCENE}{more}")).unwrap();
     }
     for (arguments, says) in [
-        (["bake", "area.toml", "-o", "area.bin"], "area lights"),
-        (["bake", "indirect.toml", "-o", "indirect.bin"], "interreflection"),
+        (["bake", "indirect.toml", "-o", "indirect.bin"], "virtual lights"),
+        (["bake", "solid.toml", "-o", "solid.bin"], "solids"),
     ] {
         let output = whitted(place.path(), &arguments);
         assert!(errors(&output).contains(says), "{}", errors(&output));
@@ -120,7 +158,10 @@ fn what_a_blob_cannot_hold_is_named() {
     let source = fs::read_to_string(place.path().join("indirect.rs")).unwrap();
     assert!(source.contains("static VIRTUAL_LIGHTS: [whitted::gather::VirtualLight<A>; 256] = ["));
     assert!(source.contains("    indirect: INDIRECT,\n"));
-    assert_eq!(files(place.path()), ["area.rs", "area.toml", "indirect.rs", "indirect.toml"]);
+    assert_eq!(
+        files(place.path()),
+        ["area.rs", "area.toml", "indirect.rs", "indirect.toml", "solid.toml"]
+    );
 }
 
 #[test]

@@ -54,6 +54,17 @@ pub enum BlobError {
         /// Lights in the blob.
         lights: u16,
     },
+    /// More of what a [`Room`](super::Room) has besides than the caller has room for.
+    RoomBesides {
+        /// Lights with an area in the blob.
+        area_lights: u16,
+        /// Corners of their fans.
+        fans: u16,
+        /// Textures.
+        textures: u16,
+        /// Media.
+        absorptions: u16,
+    },
     /// The parts don't fit together.
     Scene(SceneError),
 }
@@ -86,6 +97,13 @@ impl fmt::Display for BlobError {
             Self::Unknown => "a kind or switch that this version doesn't know",
             Self::Room { materials, lights } => {
                 return write!(f, "there are {materials} materials and {lights} lights: no room");
+            }
+            Self::RoomBesides { area_lights, fans, textures, absorptions } => {
+                return write!(
+                    f,
+                    "there are {area_lights} area lights with {fans} corners, {textures} textures \
+                     and {absorptions} media: no room"
+                );
             }
             Self::Scene(error) => return write!(f, "{error}"),
         };

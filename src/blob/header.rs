@@ -3,14 +3,16 @@
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
 use super::{ALIGNMENT, BlobError};
+use crate::gather::Record;
 use crate::math::Arithmetic;
 use crate::octree::Cube;
+use crate::scene::TriangleUv;
 use crate::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, SmoothTriangle, Sphere, Triangle,
 };
 
 /// The version of the layout that this library writes and reads.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 
 /// Kinds of lists of shapes, edges and planes included.
 pub(super) const LISTS: usize = 10;
@@ -20,7 +22,7 @@ const MAGIC: [u8; 8] = *b"whitted\x1a";
 pub(super) const CHECKSUM: usize = 16;
 const SUMMED: usize = 20;
 /// The bytes of the header.
-const SIZE: usize = 104;
+const SIZE: usize = 128;
 
 pub(super) const NO_CUBE: Cube = Cube { origin: [0; 3], log2_side: 0 };
 
@@ -36,8 +38,24 @@ pub struct Counts {
     pub materials: u16,
     /// Lights.
     pub lights: u16,
-    /// Bytes of materials, lights and the setting.
+    /// Bytes of the setting, materials and lights, and of what they name but for pictures.
     pub specs: u32,
+    /// Texture coordinates of triangles.
+    pub uvs: u32,
+    /// Irradiance records.
+    pub records: u32,
+    /// Corners of polygons that are lights.
+    pub corners: u32,
+    /// Bytes of pictures, with their palettes.
+    pub pictures: u32,
+    /// Lights with an area.
+    pub area_lights: u16,
+    /// Corners of their fans: one less for each polygon than it has corners.
+    pub fans: u16,
+    /// Textures.
+    pub textures: u16,
+    /// Media.
+    pub absorptions: u16,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +72,7 @@ pub(super) const fn up(bytes: usize) -> usize {
     bytes.wrapping_add(ALIGNMENT - 1) & !(ALIGNMENT - 1)
 }
 
-/// The sizes of a list's elements.
+/// The sizes of the elements of the lists of shapes.
 const fn sizes<A: Arithmetic>() -> [usize; LISTS] {
     [
         size_of::<Sphere<A>>(),
@@ -79,7 +97,8 @@ const fn layout<A: Arithmetic>() -> u32 {
         hash = (hash ^ sizes[i] as u32).wrapping_mul(0x0100_0193);
         i += 1;
     }
-    hash
+    let hash = (hash ^ size_of::<TriangleUv>() as u32).wrapping_mul(0x0100_0193);
+    (hash ^ size_of::<Record<A>>() as u32).wrapping_mul(0x0100_0193)
 }
 
 fn arithmetic<A: Arithmetic>() -> u16 {
@@ -102,11 +121,23 @@ impl Header {
         let lists = sizes::<A>().into_iter().zip(self.counts.shapes);
         let shapes = lists.map(|(size, count)| up(size.wrapping_mul(count as usize)));
         let shapes = shapes.fold(0, usize::wrapping_add);
-        SIZE + shapes + up(4 * self.counts.words as usize) + up(self.counts.specs as usize)
+        let list = |count: u32, size: usize| up(size.wrapping_mul(count as usize));
+        let Counts { uvs, records, corners, words, pictures, specs, .. } = self.counts;
+        let rest = [
+            list(uvs, size_of::<TriangleUv>()),
+            list(records, size_of::<Record<A>>()),
+            list(corners, size_of::<[f64; 3]>()),
+            list(words, 4),
+            list(pictures, 1),
+            list(specs, 1),
+        ];
+        rest.into_iter().fold(SIZE.wrapping_add(shapes), usize::wrapping_add)
     }
 
     pub(super) fn write<A: Arithmetic>(&self, to: &mut dyn FnMut(&[u8])) {
-        let Counts { shapes, words, materials, lights, specs } = self.counts;
+        let Counts { shapes, words, materials, lights, specs, .. } = self.counts;
+        let Counts { uvs, records, corners, pictures, .. } = self.counts;
+        let Counts { area_lights, fans, textures, absorptions, .. } = self.counts;
         to(&MAGIC);
         to(&VERSION.to_le_bytes());
         to(&arithmetic::<A>().to_le_bytes());
@@ -120,7 +151,8 @@ impl Header {
         to(&words.to_le_bytes());
         to(&materials.to_le_bytes());
         to(&lights.to_le_bytes());
-        to(&specs.to_le_bytes());
+        [specs, uvs, records, corners, pictures].iter().for_each(|n| to(&n.to_le_bytes()));
+        [area_lights, fans, textures, absorptions].iter().for_each(|n| to(&n.to_le_bytes()));
         to(&[0; 4]);
     }
 
@@ -164,7 +196,7 @@ impl Header {
             1 => true,
             _ => return Err(BlobError::Unknown),
         };
-        if byte(35) != 0 || whole(100) != 0 {
+        if byte(35) != 0 || whole(124) != 0 {
             return Err(BlobError::Unknown);
         }
         let header = Self {
@@ -174,6 +206,14 @@ impl Header {
                 materials: half(92),
                 lights: half(94),
                 specs: whole(96),
+                uvs: whole(100),
+                records: whole(104),
+                corners: whole(108),
+                pictures: whole(112),
+                area_lights: half(116),
+                fans: half(118),
+                textures: half(120),
+                absorptions: half(122),
             },
             cube: Cube {
                 origin: [whole(36) as i32, whole(40) as i32, whole(44) as i32],

@@ -1,8 +1,9 @@
 //! A scene in one piece of flash, read where it lies.
 //!
 //! `whitted bake SCENE -o scene.bin` writes it; [`Blob::open`] checks it, all of it and once, and
-//! [`Blob::scene`] gives the [`Scene`]. Shapes and the tree stay in flash. Materials and lights
-//! are few; they are made in memory of the caller's.
+//! [`Blob::scene`] gives the [`Scene`]. Shapes, the tree, irradiance records and pictures stay in
+//! flash. Materials and lights are few; they are made in memory of the caller's. What also has
+//! area lights, textures or media is made by [`Blob::scene_in`] a [`Room`].
 //!
 //! ```
 //! use whitted::blob::{Blob, BlobError};
@@ -18,31 +19,38 @@
 //!     // render
 //!     Ok(())
 //! }
-//! # assert_eq!(picture(b"no blob"), Err(BlobError::Length { wanted: 104 }));
+//! # assert_eq!(picture(b"no blob"), Err(BlobError::Length { wanted: 128 }));
 //! ```
 //!
 //! The layout, byte by byte, is in `docs/blob.md`. Hostile bytes give an error: every index, count
 //! and value is checked, the checksum apart.
 
+mod detail;
 mod error;
 mod header;
+mod room;
 mod spec;
 pub(crate) mod stored;
 
+pub use detail::AbsorptionSpec;
 pub use error::BlobError;
 pub use header::{Counts, VERSION};
-pub use spec::{BackgroundSpec, CameraSpec, SettingSpec};
+pub use room::Room;
+pub use spec::{BackgroundSpec, CameraSpec, SelectionSpec, SettingSpec};
 pub use stored::Stored;
-pub(crate) use stored::{stored, stored_numbers, within};
+pub(crate) use stored::{put, stored, stored_numbers, within};
 
+use bytemuck::AnyBitPattern;
 use header::Header;
 use spec::{Reader, Spec, Writer};
 
+use crate::gather::{Indirect, IrradianceCache, Record};
 use crate::math::{Arithmetic, for_each_arithmetic};
 use crate::octree::{Cube, Octree};
 use crate::scene::{
-    Ambient, Background, Camera, Light, LightSpec, Material, MaterialSpec, Parts, Rules, Scene,
-    SceneError, Shapes,
+    Absorption, Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Image,
+    Light, LightSpec, Material, MaterialSpec, Parts, Rules, Scene, SceneError, Selection, Shapes,
+    Texture, TextureSpec, TriangleUv,
 };
 use crate::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, SmoothTriangle, Sphere, Triangle,
@@ -75,6 +83,14 @@ pub struct Content<'c, A: Arithmetic> {
     pub materials: &'c [MaterialSpec],
     /// What the lights are made from.
     pub lights: &'c [LightSpec],
+    /// What the media are made from.
+    pub absorptions: &'c [AbsorptionSpec],
+    /// What the textures are made from. The pictures of those that have the same are written once.
+    pub textures: &'c [TextureSpec<'c>],
+    /// What the lights with an area are made from. Fans follow each other in their order.
+    pub area_lights: &'c [AreaLightSpec<'c>],
+    /// Irradiance records, and the limit of the error that they were gathered with.
+    pub cache: Option<(&'c [Record<A>], f64)>,
     /// Rules, camera and surroundings.
     pub setting: SettingSpec,
     /// What the scene uses: [`Parts::uses`].
@@ -88,7 +104,12 @@ pub struct Blob<'b, A: Arithmetic> {
     shapes: Shapes<'b, A>,
     planes: &'b [Plane<A>],
     setting: SettingSpec,
-    /// Materials, then lights, as specifications.
+    cache: Option<IrradianceCache<'b, A>>,
+    /// The corners of the polygons that are lights.
+    corners: &'b [[f64; 3]],
+    /// The bytes of the textures' pictures.
+    pictures: &'b [u8],
+    /// Materials, lights, media, textures and area lights, as specifications.
     specs: &'b [u8],
 }
 
@@ -128,7 +149,35 @@ impl<A: Arithmetic> Content<'_, A> {
             materials: self.materials.len() as u16,
             lights: self.lights.len() as u16,
             specs: specs as u32,
+            uvs: self.shapes.uvs.len() as u32,
+            records: self.records().len() as u32,
+            corners: self.polygons().map(|corners| corners.len() as u32).sum(),
+            pictures: self.pictures().map(|(_, image)| detail::bytes(&image) as u32).sum(),
+            area_lights: self.area_lights.len() as u16,
+            fans: self.polygons().map(|corners| corners.len().saturating_sub(1) as u16).sum(),
+            textures: self.textures.len() as u16,
+            absorptions: self.absorptions.len() as u16,
         }
+    }
+
+    fn records(&self) -> &[Record<A>] {
+        self.cache.map_or(&[], |(records, _)| records)
+    }
+
+    /// The corners of each polygon that is a light.
+    fn polygons(&self) -> impl Iterator<Item = &[[f64; 3]]> {
+        self.area_lights.iter().filter_map(|light| match light.area {
+            Area::Polygon { corners, .. } => Some(corners),
+            _ => None,
+        })
+    }
+
+    /// Each picture once, and the texture that shows it first.
+    fn pictures(&self) -> impl Iterator<Item = (usize, Image<'_>)> {
+        let textures = self.textures.iter().enumerate();
+        textures
+            .filter_map(|(i, texture)| Some((i, detail::picture(texture)?)))
+            .filter(|(i, _)| detail::place(self.textures, *i).is_first)
     }
 
     /// Writes the blob, piece by piece; the checksum stands 0, for [`seal`].
@@ -138,7 +187,17 @@ impl<A: Arithmetic> Content<'_, A> {
         let header = Header { counts, cube, step, has_tree: self.tree.is_some(), uses: self.uses };
         header.write::<A>(to);
         each_list!(self.shapes, self.planes, list => write_list(list, to));
+        write_list(self.shapes.uvs, to);
+        write_list(self.records(), to);
+        // Of three numbers of eight bytes: nothing is left to fill up.
+        let corners = self.polygons().flatten().flatten();
+        corners.for_each(|x| to(&x.to_le_bytes()));
         write_list(words, to);
+        for (_, image) in self.pictures() {
+            detail::palette(&image).iter().for_each(|color| to(color));
+            to(image.bytes());
+        }
+        pad(counts.pictures as usize, to);
         self.write_specs(&mut Writer(to));
         pad(counts.specs as usize, to);
     }
@@ -147,6 +206,15 @@ impl<A: Arithmetic> Content<'_, A> {
         self.setting.write(to);
         self.materials.iter().for_each(|material| material.write(to));
         self.lights.iter().for_each(|light| light.write(to));
+        self.absorptions.iter().for_each(|media| detail::write_absorption(media, to));
+        for (i, texture) in self.textures.iter().enumerate() {
+            detail::write_texture(texture, detail::place(self.textures, i).at, to);
+        }
+        self.area_lights.iter().for_each(|light| detail::write_area_light(light, to));
+        to.byte(self.cache.is_some().into());
+        if let Some((_, error)) = self.cache {
+            to.number(error);
+        }
     }
 }
 
@@ -176,12 +244,8 @@ pub fn seal(bytes: &mut [u8]) {
     }
 }
 
-/// The next list of a blob.
-fn list<'b, T: Stored>(
-    bytes: &mut &'b [u8],
-    count: u32,
-    index: &mut u32,
-) -> Result<&'b [T], BlobError> {
+/// The next list of a blob, its values not looked at.
+fn raw<'b, T: AnyBitPattern>(bytes: &mut &'b [u8], count: u32) -> Result<&'b [T], BlobError> {
     let size = (count as usize).checked_mul(size_of::<T>()).ok_or(BlobError::Parts)?;
     // Rounding up a size near the largest number gives less.
     let whole = header::up(size);
@@ -190,12 +254,21 @@ fn list<'b, T: Stored>(
     }
     let (part, rest) = bytes.split_at_checked(whole).ok_or(BlobError::Parts)?;
     let values = part.get(..size).ok_or(BlobError::Parts)?;
-    let values: &[T] = bytemuck::try_cast_slice(values).map_err(|_| BlobError::Alignment)?;
+    *bytes = rest;
+    bytemuck::try_cast_slice(values).map_err(|_| BlobError::Alignment)
+}
+
+/// The next list of a blob.
+fn list<'b, T: Stored>(
+    bytes: &mut &'b [u8],
+    count: u32,
+    index: &mut u32,
+) -> Result<&'b [T], BlobError> {
+    let values = raw::<T>(bytes, count)?;
     match values.iter().position(|value| !value.is_sound()) {
         Some(at) => return Err(BlobError::Shape { index: index.wrapping_add(at as u32) }),
         None => *index = index.wrapping_add(count),
     }
-    *bytes = rest;
     Ok(values)
 }
 
@@ -250,6 +323,10 @@ for_each_arithmetic! {
                 ..Shapes::EMPTY
             };
             let planes = list::<Plane<A>>(from, j, index)?;
+            let counts = header.counts;
+            shapes.uvs = list::<TriangleUv>(from, counts.uvs, index)?;
+            let records = list::<Record<A>>(from, counts.records, index)?;
+            let corners = raw::<[f64; 3]>(from, counts.corners)?;
             let words = list::<u32>(from, header.counts.words, index)?;
             if header.has_tree {
                 let bounded = shapes.bounded() as usize;
@@ -258,14 +335,19 @@ for_each_arithmetic! {
             } else if !words.is_empty() {
                 return Err(BlobError::Parts);
             }
-            let specs = header.counts.specs as usize;
+            let pictures = raw::<u8>(from, counts.pictures)?;
+            let specs = counts.specs as usize;
             if rest.len() != header::up(specs) {
                 return Err(BlobError::Parts);
             }
             let mut reader = Reader(rest);
             let setting = SettingSpec::read(&mut reader).ok_or(BlobError::Unknown)?;
-            let blob = Self { header, shapes, planes, setting, specs: reader.0 };
+            let specs = reader.0;
+            let cache = None;
+            let mut blob =
+                Self { header, shapes, planes, setting, cache, corners, pictures, specs };
             blob.surroundings()?;
+            blob.selection()?;
             blob.camera()?;
             let mut reader = blob.reader();
             for _ in 0..header.counts.materials {
@@ -274,6 +356,27 @@ for_each_arithmetic! {
             for _ in 0..header.counts.lights {
                 Self::light(&mut reader)?;
             }
+            for _ in 0..counts.absorptions {
+                Self::absorption(&mut reader)?;
+            }
+            for _ in 0..counts.textures {
+                blob.texture(&mut reader)?;
+            }
+            let (mut left, mut fans) = (corners, 0);
+            for _ in 0..counts.area_lights {
+                let spec = detail::read_area_light(&mut reader, &mut left, &mut fans);
+                Self::area_light(&spec.ok_or(BlobError::Unknown)?, &mut [].iter_mut())?;
+            }
+            if !left.is_empty() || fans != u32::from(counts.fans) {
+                return Err(BlobError::Parts);
+            }
+            if reader.switch().ok_or(BlobError::Unknown)? {
+                let error = reader.number().ok_or(BlobError::Unknown)?;
+                let cache = IrradianceCache::<A>::try_new(records, error);
+                blob.cache = Some(cache.map_err(BlobError::Value)?);
+            } else if !records.is_empty() {
+                return Err(BlobError::Parts);
+            }
             if reader.is_over() { Ok(blob) } else { Err(BlobError::Parts) }
         }
 
@@ -281,7 +384,8 @@ for_each_arithmetic! {
         /// [`counts`](Self::counts) says, or more.
         ///
         /// # Errors
-        /// Too little room; parts that don't fit together.
+        /// Too little room, none for area lights, textures and media among it; parts that don't fit
+        /// together.
         pub fn scene<'s, const USES: u64>(
             &self,
             materials: &'s mut [Material<A>],
@@ -290,6 +394,22 @@ for_each_arithmetic! {
         where
             'b: 's,
         {
+            self.scene_in(Room { materials, lights, ..Room::default() })
+        }
+
+        /// The scene, over whatever of it isn't read in place in memory of the caller's: as much of
+        /// each as [`counts`](Self::counts) says, or more.
+        ///
+        /// # Errors
+        /// Too little room; parts that don't fit together.
+        pub fn scene_in<'s, const USES: u64>(
+            &self,
+            room: Room<'s, 'b, A>,
+        ) -> Result<Scene<'s, A, USES>, BlobError>
+        where
+            'b: 's,
+        {
+            let Room { materials, lights, area_lights, fans, textures, absorptions } = room;
             let counts = &self.header.counts;
             let room = BlobError::Room { materials: counts.materials, lights: counts.lights };
             let materials = materials.get_mut(..counts.materials.into()).ok_or(room)?;
@@ -300,6 +420,27 @@ for_each_arithmetic! {
             }
             for light in lights.iter_mut() {
                 *light = Self::light(&mut reader)?;
+            }
+            let room = BlobError::RoomBesides {
+                area_lights: counts.area_lights,
+                fans: counts.fans,
+                textures: counts.textures,
+                absorptions: counts.absorptions,
+            };
+            let absorptions = absorptions.get_mut(..counts.absorptions.into()).ok_or(room)?;
+            let textures = textures.get_mut(..counts.textures.into()).ok_or(room)?;
+            let area_lights = area_lights.get_mut(..counts.area_lights.into()).ok_or(room)?;
+            let light_corners = fans.get_mut(..counts.fans.into()).ok_or(room)?;
+            for absorption in absorptions.iter_mut() {
+                *absorption = Self::absorption(&mut reader)?;
+            }
+            for texture in textures.iter_mut() {
+                *texture = self.texture(&mut reader)?;
+            }
+            let (mut left, mut first, mut fans) = (self.corners, 0, light_corners.iter_mut());
+            for light in area_lights.iter_mut() {
+                let spec = detail::read_area_light(&mut reader, &mut left, &mut first);
+                *light = Self::area_light(&spec.ok_or(BlobError::Unknown)?, &mut fans)?;
             }
             let (ambient, background, rules) = self.surroundings()?;
             let Shapes {
@@ -313,6 +454,7 @@ for_each_arithmetic! {
                 cylinders,
                 cones,
                 tree,
+                uvs,
                 ..
             } = self.shapes;
             Scene::<A, USES>::try_tailored(Parts {
@@ -326,9 +468,17 @@ for_each_arithmetic! {
                 cylinders,
                 cones,
                 tree,
+                uvs,
                 planes: self.planes,
                 materials,
                 lights,
+                absorptions,
+                textures,
+                area_lights,
+                light_corners,
+                light_jitter: self.setting.light_jitter,
+                selection: self.selection()?,
+                indirect: self.cache.map_or(Indirect::None, Indirect::Cache),
                 ambient,
                 background,
                 rules,
@@ -367,6 +517,45 @@ for_each_arithmetic! {
                 background.map_err(BlobError::Value)?,
                 rules,
             ))
+        }
+
+        fn selection(&self) -> Result<Selection<A>, BlobError> {
+            match self.setting.selection {
+                SelectionSpec::All => Ok(Selection::All),
+                SelectionSpec::Choose(count) => Ok(Selection::Choose(count)),
+                SelectionSpec::Above(radiance) => {
+                    Selection::<A>::try_above(radiance).map_err(BlobError::Value)
+                }
+            }
+        }
+
+        fn absorption(from: &mut Reader<'_>) -> Result<Absorption<A>, BlobError> {
+            let [front, behind] = detail::read_absorption(from).ok_or(BlobError::Unknown)?;
+            Absorption::<A>::try_new(front, behind).map_err(BlobError::Value)
+        }
+
+        fn texture(&self, from: &mut Reader<'_>) -> Result<Texture<'b, A>, BlobError> {
+            let spec = detail::read_texture(from, self.pictures).ok_or(BlobError::Unknown)?;
+            Texture::<A>::try_new(&spec).map_err(BlobError::Value)
+        }
+
+        /// A light, and its fan if it is a polygon; where there are no more places for the fan, its
+        /// corners are checked alone.
+        fn area_light(
+            spec: &AreaLightSpec<'_>,
+            fans: &mut core::slice::IterMut<'_, FanCorner<A>>,
+        ) -> Result<AreaLight<A>, BlobError> {
+            let light = AreaLight::<A>::try_new(spec).map_err(BlobError::Value)?;
+            if let Area::Polygon { corners, .. } = spec.area {
+                for i in 1..corners.len() {
+                    let corner = AreaLight::<A>::try_fan(corners, i.wrapping_sub(1));
+                    let corner = corner.map_err(BlobError::Value)?;
+                    if let Some(place) = fans.next() {
+                        *place = corner;
+                    }
+                }
+            }
+            Ok(light)
         }
 
         fn material(from: &mut Reader<'_>) -> Result<Material<A>, BlobError> {

@@ -4,6 +4,19 @@
 
 use crate::scene::{Falloff, LightSpec, MaterialSpec, PatternSpec, Shadow};
 
+/// Which lights a point asks, in plain numbers: what [`Selection`](crate::scene::Selection) is made
+/// from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum SelectionSpec {
+    /// All.
+    #[default]
+    All,
+    /// Those that would add at least this to some channel.
+    Above(f64),
+    /// So many, chosen at random.
+    Choose(u8),
+}
+
 /// What a scene is seen from: what [`Camera::try_look_at`](crate::scene::Camera) takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSpec {
@@ -54,6 +67,10 @@ pub struct SettingSpec {
     pub cutoff: f64,
     /// The depth that the scene asks for.
     pub depth: u8,
+    /// Which lights a point asks.
+    pub selection: SelectionSpec,
+    /// See [`Parts::light_jitter`](crate::scene::Parts::light_jitter).
+    pub light_jitter: Option<u16>,
 }
 
 /// Bytes that go out.
@@ -63,20 +80,32 @@ pub(super) struct Writer<'w>(pub(super) &'w mut dyn FnMut(&[u8]));
 pub(super) struct Reader<'r>(pub(super) &'r [u8]);
 
 impl Writer<'_> {
-    fn byte(&mut self, value: u8) {
+    pub(super) fn byte(&mut self, value: u8) {
         (self.0)(&[value]);
     }
 
-    fn number(&mut self, value: f64) {
+    pub(super) fn number(&mut self, value: f64) {
         (self.0)(&value.to_le_bytes());
     }
 
-    fn numbers(&mut self, values: &[f64; 3]) {
+    pub(super) fn numbers(&mut self, values: &[f64; 3]) {
         values.iter().for_each(|&x| self.number(x));
     }
 
-    fn whole(&mut self, value: u16) {
+    pub(super) fn whole(&mut self, value: u16) {
         (self.0)(&value.to_le_bytes());
+    }
+
+    pub(super) fn long(&mut self, value: u32) {
+        (self.0)(&value.to_le_bytes());
+    }
+
+    /// 0, or 1 and the number.
+    pub(super) fn maybe(&mut self, value: Option<u16>) {
+        self.byte(value.is_some().into());
+        if let Some(value) = value {
+            self.whole(value);
+        }
     }
 }
 
@@ -87,12 +116,12 @@ impl Reader<'_> {
         Some(*first)
     }
 
-    fn byte(&mut self) -> Option<u8> {
+    pub(super) fn byte(&mut self) -> Option<u8> {
         self.take::<1>().map(|[byte]| byte)
     }
 
     /// 0 or 1.
-    fn switch(&mut self) -> Option<bool> {
+    pub(super) fn switch(&mut self) -> Option<bool> {
         match self.byte()? {
             0 => Some(false),
             1 => Some(true),
@@ -100,16 +129,24 @@ impl Reader<'_> {
         }
     }
 
-    fn number(&mut self) -> Option<f64> {
+    pub(super) fn number(&mut self) -> Option<f64> {
         self.take().map(f64::from_le_bytes)
     }
 
-    fn numbers(&mut self) -> Option<[f64; 3]> {
+    pub(super) fn numbers(&mut self) -> Option<[f64; 3]> {
         Some([self.number()?, self.number()?, self.number()?])
     }
 
-    fn whole(&mut self) -> Option<u16> {
+    pub(super) fn whole(&mut self) -> Option<u16> {
         self.take().map(u16::from_le_bytes)
+    }
+
+    pub(super) fn long(&mut self) -> Option<u32> {
+        self.take().map(u32::from_le_bytes)
+    }
+
+    pub(super) fn maybe(&mut self) -> Option<Option<u16>> {
+        Some(if self.switch()? { Some(self.whole()?) } else { None })
     }
 
     /// What is left: less than a word, all zero.
@@ -146,6 +183,18 @@ impl Spec for SettingSpec {
                 [up, bottom, top].into_iter().for_each(|v| to.numbers(v));
             }
         }
+        match self.selection {
+            SelectionSpec::All => to.byte(0),
+            SelectionSpec::Above(radiance) => {
+                to.byte(1);
+                to.number(radiance);
+            }
+            SelectionSpec::Choose(count) => {
+                to.byte(2);
+                to.byte(count);
+            }
+        }
+        to.maybe(self.light_jitter);
     }
 
     fn read(from: &mut Reader<'_>) -> Option<Self> {
@@ -165,7 +214,15 @@ impl Spec for SettingSpec {
             },
             _ => return None,
         };
+        let selection = match from.byte()? {
+            0 => SelectionSpec::All,
+            1 => SelectionSpec::Above(from.number()?),
+            2 => SelectionSpec::Choose(from.byte()?),
+            _ => return None,
+        };
         Some(Self {
+            selection,
+            light_jitter: from.maybe()?,
             camera,
             ambient,
             background,
@@ -194,10 +251,9 @@ impl Spec for MaterialSpec {
             shadow,
             pattern,
             fresnel,
-            // Not in this version of the layout.
-            texture: _,
-            bump: _,
-            absorption: _,
+            texture,
+            bump,
+            absorption,
         } = self;
         let colors = [ambient, diffuse, specular, reflection, transmission, emission];
         colors.into_iter().for_each(|v| to.numbers(v));
@@ -217,6 +273,7 @@ impl Spec for MaterialSpec {
                 to.whole(*other);
             }
         }
+        [texture, bump, absorption].into_iter().for_each(|&index| to.maybe(index));
     }
 
     fn read(from: &mut Reader<'_>) -> Option<Self> {
@@ -246,7 +303,9 @@ impl Spec for MaterialSpec {
                 }),
                 _ => return None,
             },
-            ..Self::BLACK
+            texture: from.maybe()?,
+            bump: from.maybe()?,
+            absorption: from.maybe()?,
         })
     }
 }

@@ -133,6 +133,16 @@ impl Stored for u32 {
     }
 }
 
+impl Stored for u8 {
+    fn store(&self, to: &mut [u8]) {
+        put(self, to, 0);
+    }
+
+    fn is_sound(&self) -> bool {
+        true
+    }
+}
+
 /// A mesh's normal, whose components are numbers of their own.
 macro_rules! normals {
     ($($type:ty: |$x:ident| $sound:expr),*) => {

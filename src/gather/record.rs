@@ -1,13 +1,27 @@
 //! Irradiance records: what is remembered at a point.
 
+use bytemuck::AnyBitPattern;
+
+use crate::blob::{Stored, put, stored};
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
 use crate::shape::{ShapeError, ok_or_panic, point, some_or};
 
 /// Three radiances with a common exponent, in 32 bits: nine bits each and five, as in OpenGL's
 /// RGB9_E5, here of multiples of 2⁻¹⁶. The largest channel keeps a relative precision of 2⁻⁹; a
 /// channel above 32767 is cut.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, AnyBitPattern)]
+#[repr(transparent)]
 pub(crate) struct PackedRgb(u32);
+
+impl Stored for PackedRgb {
+    fn store(&self, to: &mut [u8]) {
+        put(&self.0, to, 0);
+    }
+
+    fn is_sound(&self) -> bool {
+        self.0 & 31 <= 22
+    }
+}
 
 impl PackedRgb {
     pub(crate) const fn new(q16: [i32; 3]) -> Self {
@@ -69,7 +83,8 @@ pub struct RecordSpec {
 /// 32 bytes in fixed point and `f32`, 48 in `f64`. Positions and reach are the arithmetic's own
 /// lengths; normals have 14 fraction bits, irradiance nine bits for the largest channel, the
 /// gradients seven and six fraction bits.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
+#[repr(C)]
 pub struct Record<A: Arithmetic> {
     pub(crate) position: [A::Length; 3],
     pub(crate) reach: A::Length,
@@ -77,6 +92,20 @@ pub struct Record<A: Arithmetic> {
     pub(crate) normal_q14: [i16; 3],
     pub(crate) translation_q7: [i8; 3],
     pub(crate) rotation_q6: [i8; 3],
+}
+
+stored!(Record {
+    position: lengths, reach: length, irradiance: nested, normal_q14: whole, translation_q7: whole,
+    rotation_q6: whole,
+} if *reach > A::NO_LENGTH
+    && square(normal_q14, 1.0 / 16384.0, 0.99, 1.01)
+    && square(translation_q7, 1.0 / 127.0, 0.0, 1.03)
+    && square(rotation_q6, 1.0 / 63.0, 0.0, 4.12));
+
+/// Whether the square of a vector lies within bounds.
+fn square<T: Copy + Into<f64>>(v: &[T; 3], one: f64, least: f64, most: f64) -> bool {
+    let square = v.iter().map(|&x| Into::<f64>::into(x) * one).fold(0.0, |sum, x| sum + x * x);
+    square >= least && square <= most
 }
 
 const _: () = assert!(size_of::<Record<crate::math::Fixed>>() == 32);
@@ -168,8 +197,8 @@ for_each_arithmetic! {
                 rotation_q6[i] = rounds(r * 63.0) as i8;
                 i += 1;
             }
-            // What a gatherer makes is a step too long at most in each component, rounded down:
-            // (1 + √3/127)², (2 + √3/63)², and a little.
+            // What a gatherer makes is a step too long at most in each component, rounded down: (1 + √3/127)²,
+            // (2 + √3/63)², and a little.
             if !(slope <= 1.03 && turn <= 4.12) {
                 return Err(ShapeError::Coefficient);
             }

@@ -102,6 +102,11 @@ pub struct FanCorner<A: Arithmetic> {
     pub(crate) until: u32,
 }
 
+impl<A: Arithmetic> FanCorner<A> {
+    /// A corner of nothing: what the memory for a blob's fans is made of.
+    pub const NONE: Self = Self { edge: [A::NO_LENGTH; 3], until: 0 };
+}
+
 /// An area light, precomputed.
 #[derive(Clone, Copy, Debug)]
 pub struct AreaLight<A: Arithmetic> {

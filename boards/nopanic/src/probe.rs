@@ -15,7 +15,7 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::blob::{self, Blob, Content};
+use whitted::blob::{self, Blob, Content, Room};
 use whitted::frame::Transfer;
 use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
@@ -25,7 +25,7 @@ use whitted::math::{self, Arithmetic, Fixed};
 use whitted::octree::{self, Limits, Octree};
 use whitted::scene::{self, Absorption, Filter, Mapping, Pattern, Texels, Texture, TextureSpec};
 use whitted::scene::{Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff};
-use whitted::scene::{Group, Instance, Light, LightSpec, Selection};
+use whitted::scene::{FanCorner, Group, Instance, Light, LightSpec, Selection};
 use whitted::scene::{Material, Shapes, Transform};
 use whitted::scene::{MaterialSpec, Parts, PatternSpec, Rules, Scene, Shadow};
 use whitted::scene::{TriangleUv, Wrap};
@@ -124,6 +124,7 @@ macro_rules! arithmetic {
                 samples: any([2, 9]),
                 body: any(Some(1)),
             };
+            let lamp = any(spec(any(Area::Polygon { corners: any(&[[1.0; 3]; 4]), first: 0 })));
             let image =
                 scene::Image::try_new(any(9), any(9), any(Texels::Rgb565), any(&[0; 162])).ok()?;
             let image = image.with_filter(any(Filter::Bilinear)).with_wrap(any(Wrap::Clamp));
@@ -296,6 +297,7 @@ macro_rules! arithmetic {
             };
             let settings = any(VirtualLightsSettings::<$a>::try_new(&spec).ok()?);
             let mut pool = any([VirtualLight::<$a>::NONE; 16]);
+            pool[0] = any(VirtualLight::<$a>::try_new(&any(pool[1].spec())).ok()?);
             let laid = VirtualLights::lay(&scene, &settings, &mut pool, &mut memory, &mut counts);
             let laid = any(VirtualLights::new(any(laid.lights()), &settings));
             let indirect = any([Indirect::Cache(cache), Indirect::VirtualLights(laid)]);
@@ -319,13 +321,33 @@ macro_rules! arithmetic {
             let (mut materials, mut lights) = (any(materials), any(lights));
             let scene: Scene<'_, $a> = blob.scene(any(&mut materials), any(&mut lights)).ok()?;
             any(scene.parts());
+            let (mut materials, mut lights) = (any(materials), any(lights));
+            let mut textures = any([Texture::<$a>::try_new(&any(texture)).ok()?; 2]);
+            let mut areas = any([AreaLight::<$a>::try_new(&lamp).ok()?; 2]);
+            let (mut fans, mut media) = (any([FanCorner::NONE; 8]), any(absorptions));
+            let scene: Scene<'_, $a> = blob
+                .scene_in(any(Room {
+                    materials: any(&mut materials),
+                    lights: any(&mut lights),
+                    area_lights: any(&mut areas),
+                    fans: any(&mut fans),
+                    textures: any(&mut textures),
+                    absorptions: any(&mut media),
+                }))
+                .ok()?;
+            any(scene.parts());
             let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
+            let (surfaces, lamps) = ([texture; 2], [lamp; 2]);
             let content = Content {
                 shapes,
                 planes: any(&planes),
                 tree: Some((any(&words), cube, any(-16))),
                 materials: &specs,
                 lights: &kinds,
+                absorptions: any(&[[[0.0; 3]; 2]]),
+                textures: any(&surfaces),
+                area_lights: any(&lamps),
+                cache: any(Some((filled.records(), 0.2))),
                 setting: *blob.setting(),
                 uses: any(7),
             };

@@ -3,9 +3,7 @@
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::pixelcolor::RgbColor;
 use embedded_hal::delay::DelayNs;
-use embedded_hal_bus::spi::{ExclusiveDevice, NoDelay};
 use mipidsi::Builder;
-use mipidsi::interface::SpiInterface;
 use mipidsi::models::ILI9341Rgb565;
 use mipidsi::options::{ColorOrder, Orientation, Rotation};
 use stm32f4xx_hal::gpio::{Output, Pin, Speed};
@@ -13,6 +11,9 @@ use stm32f4xx_hal::pac::{self, SPI1};
 use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::rcc::Config;
 use stm32f4xx_hal::spi::{Mode, Phase, Polarity, Spi};
+
+use crate::link::{self, Link};
+use crate::sender::Sender;
 
 /// The core's clock.
 #[cfg(feature = "f411")]
@@ -25,13 +26,7 @@ pub(crate) const CLOCK_MHZ: u32 = 16;
 const SPI_MHZ: u32 = 25;
 #[cfg(feature = "f405")]
 const SPI_MHZ: u32 = 8;
-/// What the driver gathers before it sends.
-const BUFFER: usize = 512;
 
-/// SPI1 with the select line.
-type Wires = ExclusiveDevice<Spi<SPI1>, Pin<'A', 4, Output>, NoDelay>;
-/// The way to the display.
-pub(crate) type Link = SpiInterface<'static, Wires, Pin<'A', 3, Output>>;
 /// The display, with the driver that knows its commands.
 pub(crate) type Display = mipidsi::Display<Link, ILI9341Rgb565, Pin<'A', 2, Output>>;
 
@@ -62,11 +57,13 @@ impl Board {
         let mode = Mode { polarity: Polarity::IdleLow, phase: Phase::CaptureOnFirstTransition };
         let pins = (Some(clock), SPI1::NoMiso, Some(data));
         let spi = Spi::new(chip.SPI1, pins, mode, SPI_MHZ.MHz(), &mut rcc);
-        let mut select = port.pa4.into_push_pull_output();
-        select.set_high();
-        let Ok(wires) = ExclusiveDevice::new_no_delay(spi, select);
-        let buffer = cortex_m::singleton!(: [u8; BUFFER] = [0; BUFFER]).expect("taken once");
-        let link = SpiInterface::new(wires, port.pa3.into_push_pull_output(), buffer);
+        let [band, other] = link::bands();
+        #[cfg(feature = "f411")]
+        let sender = Sender::new(spi, chip.DMA2, other, &mut rcc);
+        #[cfg(feature = "f405")]
+        let sender = Sender::new(spi, other);
+        let select = port.pa4.into_push_pull_output();
+        let link = Link::new(sender, band, select, port.pa3.into_push_pull_output());
         let mut display = Builder::new(ILI9341Rgb565, link)
             .orientation(Orientation::new().rotate(Rotation::Deg90).flip_horizontal())
             .color_order(ColorOrder::Bgr)

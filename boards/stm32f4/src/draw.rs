@@ -1,23 +1,23 @@
-//! A frame: each row is traced, then sent.
+//! A frame: bands of rows, traced and sent.
 
-use embedded_graphics::pixelcolor::Rgb565;
-use embedded_graphics::pixelcolor::raw::RawU16;
-use mipidsi::interface::Interface;
+use core::iter;
+
 use whitted::frame;
 use whitted::math::{Arithmetic, Fixed};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
-use whitted_demo::job::{ArithName, Job, MAX_WIDTH};
+use whitted_demo::job::{ArithName, Job};
 use whitted_demo::rgb565::{self, BYTES};
 use whitted_demo::scenes::{Shot, Shots, View};
 
-use crate::board::{Display, Link};
+use crate::board::Display;
+use crate::sender::Error;
 
 /// Whether a frame got to the display; if not, why.
-pub(crate) type Sent = Result<(), <Link as Interface>::Error>;
+pub(crate) type Sent = Result<(), Error>;
 
 /// Draws a job in the display's upper left corner, one ray a pixel. After an error nothing more is sent;
-/// each row opens its own window, so that the next frame is whole.
+/// each frame opens its window anew, so that the next frame is whole.
 pub(crate) fn frame(display: &mut Display, job: &Job) -> Sent {
     let rows = Rows { display, job };
     match job.arith {
@@ -40,14 +40,16 @@ impl<A: Arithmetic> View<A> for Rows<'_> {
         let Job { width, height, .. } = *self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();
         let mut renderer = rgb565::renderer(&shot, width, height, &mut work);
-        let mut row = [0; MAX_WIDTH as usize * BYTES];
-        let row = row.get_mut(..usize::from(width) * BYTES).unwrap_or_default();
-        for y in 0..height {
-            renderer.band::<frame::Rgb565>(y, &shot.output, row);
-            let pixels = row.as_chunks::<BYTES>().0;
-            let colors = pixels.iter().map(|&p| Rgb565::from(RawU16::new(u16::from_be_bytes(p))));
-            self.display.set_pixels(0, y, width - 1, y, colors)?;
-        }
-        Ok(())
+        // The driver opens the window, the link fills it.
+        self.display.set_pixels(0, 0, width - 1, height - 1, iter::empty())?;
+        // SAFETY: only the pixels of the window that has just been opened are sent, so the driver
+        // goes on knowing the controller's settings.
+        let link = unsafe { self.display.dcs() };
+        let mut y = 0;
+        link.send_bands(|bytes| {
+            let rows = renderer.band::<frame::Rgb565>(y, &shot.output, bytes);
+            y += rows;
+            usize::from(rows) * usize::from(width) * BYTES
+        })
     }
 }

@@ -1,4 +1,5 @@
-//! STM32F411 "Black Pill": traces a scene row by row and sends each row to an ILI9341.
+//! STM32F411 "Black Pill": traces a scene band by band of rows, and sends each to an ILI9341 by DMA
+//! while it traces the next.
 //!
 //! Left to itself it goes from scene to scene, in both arithmetics, and on at a press of the KEY
 //! button. Built for an STM32F405 it draws what the emulator's command line asks for.
@@ -7,6 +8,10 @@
 
 mod board;
 mod draw;
+mod link;
+#[cfg_attr(feature = "f411", path = "dma.rs")]
+#[cfg_attr(feature = "f405", path = "blocking.rs")]
+mod sender;
 #[cfg(feature = "f411")]
 mod show;
 

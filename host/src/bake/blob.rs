@@ -1,10 +1,11 @@
 //! A scene as one piece of bytes, for flash.
 
 use whitted::blob::{Content, Counts, seal};
-use whitted::scene::{Selection, Shapes};
+use whitted::gather::Record;
+use whitted::scene::{Area, AreaLight, Shapes, TriangleUv, uses};
 
-use super::{Baked, Construct, specs};
-use crate::document::Size;
+use super::{Baked, Construct, Glow, light, specs};
+use crate::document::{Indirect, Size};
 use crate::error::{Flaw, Problem};
 
 /// A blob, and what is in it.
@@ -27,12 +28,34 @@ impl<A: Construct> Baked<A> {
     }
 
     fn flash(&self, size: Size) -> Result<Flash, Flaw> {
-        let uses = self.with_scene(|scene| scene.parts().uses())?;
+        let mut bits = self.with_scene(|scene| scene.parts().uses())?;
         let parts = self.shapes.parts()?;
-        let materials: Result<Vec<_>, _> =
-            self.placed.materials.iter().map(specs::material).collect();
-        let materials = materials.map_err(|e| super::refused::<A>("the material", e, None))?;
+        let refused = |what, error| super::refused::<A>(what, error, None);
+        let materials = specs::materials(&self.placed).map_err(|e| refused("the material", e))?;
+        let textures = specs::textures(&self.placed).map_err(|e| refused("the texture", e))?;
+        let absorbing = self.placed.materials.iter().filter(|m| m.absorbs());
+        let absorptions: Vec<_> = absorbing.map(|m| m.absorption).collect();
         let lights: Vec<_> = self.placed.lights.iter().filter_map(specs::light).collect();
+        let bodies = self.lights.areas.iter().map(AreaLight::body);
+        let area_lights = light::specs(&self.placed.lights, bodies);
+        let fans = area_lights.iter().map(|light| match light.area {
+            Area::Polygon { corners, .. } => corners.len(),
+            _ => 0,
+        });
+        if u16::try_from(fans.sum::<usize>()).is_err() {
+            let what = "the corners of the area lights".into();
+            let why = "a blob holds 65535 of them".into();
+            return Err(Problem::Unrepresentable { what, why }.anywhere());
+        }
+        let made: Result<Option<(Vec<Record<A>>, f64)>, _> = match self.glow(size)? {
+            Glow::Cache { records, error } => {
+                bits |= uses::IRRADIANCE_CACHE;
+                let records: Result<Vec<_>, _> = records.iter().map(A::new_record).collect();
+                records.map(|records| Some((records, error)))
+            }
+            Glow::None | Glow::VirtualLights { .. } => Ok(None),
+        };
+        let cache = made.map_err(|e| refused("an irradiance record", e))?;
         let content = Content {
             shapes: Shapes {
                 spheres: parts.spheres,
@@ -44,14 +67,19 @@ impl<A: Construct> Baked<A> {
                 discs: parts.discs,
                 cylinders: parts.cylinders,
                 cones: parts.cones,
+                uvs: parts.uvs,
                 ..Shapes::EMPTY
             },
             planes: parts.planes,
             tree: self.shapes.words(),
             materials: &materials,
             lights: &lights,
+            absorptions: &absorptions,
+            textures: &textures,
+            area_lights: &area_lights,
+            cache: cache.as_ref().map(|(records, error)| (records.as_slice(), *error)),
             setting: specs::setting(&self.placed, size),
-            uses,
+            uses: bits,
         };
         let mut bytes = Vec::new();
         content.write(&mut |part| bytes.extend_from_slice(part));
@@ -70,11 +98,10 @@ impl<A: Construct> Baked<A> {
             [
                 ("instances of groups", parts.instances.is_empty()),
                 ("solids", parts.solids.is_empty()),
-                ("textures and bumps", parts.textures.is_empty()),
-                ("interreflection", self.placed.indirect.is_none()),
-                ("area lights", parts.area_lights.is_empty()),
-                ("absorption", parts.absorptions.is_empty()),
-                ("a selection of lights", matches!(parts.selection, Selection::All)),
+                (
+                    "virtual lights",
+                    !matches!(self.placed.indirect, Some(Indirect::VirtualLights(_))),
+                ),
             ]
         })?;
         refuse(&without, "a blob can't hold them; Rust source (`-o scene.rs`) can")
@@ -115,8 +142,19 @@ pub fn parts_of<A: Construct>(counts: &Counts) -> Vec<(&'static str, usize, usiz
         .map(|((name, size), count)| (name, count as usize, size * count as usize))
         .collect();
     all.push(("octree words", counts.words as usize, 4 * counts.words as usize));
-    let specs = usize::from(counts.materials) + usize::from(counts.lights);
-    all.push(("materials, lights, setting", specs, counts.specs as usize));
+    let list = |count: u32, size: usize| (count as usize, size * count as usize);
+    for (name, (count, bytes)) in [
+        ("texture coordinates", list(counts.uvs, size_of::<TriangleUv>())),
+        ("irradiance records", list(counts.records, size_of::<Record<A>>())),
+        ("corners of area lights", list(counts.corners, size_of::<[f64; 3]>())),
+    ] {
+        all.push((name, count, bytes));
+    }
+    let Counts { materials, lights, absorptions, textures, area_lights, .. } = *counts;
+    let specs = [materials, lights, absorptions, textures, area_lights].map(usize::from);
+    let pictures = counts.pictures as usize;
+    all.push(("bytes of pictures", pictures, pictures));
+    all.push(("materials, lights, setting", specs.iter().sum(), counts.specs as usize));
     all.retain(|(_, count, _)| *count > 0);
     all
 }

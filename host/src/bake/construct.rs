@@ -4,8 +4,8 @@
 //! Here they are, as a trait.
 
 use whitted::gather::{
-    Gathering, GatheringSpec, VirtualLight, VirtualLightSpec, VirtualLightsSettings,
-    VirtualLightsSpec,
+    Gathering, GatheringSpec, Record, RecordSpec, VirtualLight, VirtualLightSpec,
+    VirtualLightsSettings, VirtualLightsSpec,
 };
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::{Cube, Extent, Limits, Octree, TreeError};
@@ -126,6 +126,9 @@ construct! {
     fn new_virtual_lights(spec: &VirtualLightsSpec) -> Made<VirtualLightsSettings<Self>>
         = |A| VirtualLightsSettings::<A>::try_new(spec);
 
+    /// See [`Record`].
+    fn new_record(spec: &RecordSpec) -> Made<Record<Self>>
+        = |A| Record::<A>::try_new(spec);
     /// See [`VirtualLight`].
     fn virtual_light_spec(light: &VirtualLight<Self>) -> VirtualLightSpec
         = |A| { let light: &VirtualLight<A> = light; light.spec() };

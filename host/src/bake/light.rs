@@ -56,6 +56,29 @@ impl<A: Construct> Lights<A> {
     }
 }
 
+/// What the area lights are made from; `bodies` are the shapes that show them.
+pub(super) fn specs(
+    lights: &[document::Light],
+    mut bodies: impl Iterator<Item = Option<u32>>,
+) -> Vec<AreaLightSpec<'_>> {
+    let mut first = 0;
+    let mut all = Vec::new();
+    for light in lights {
+        let LightKind::Area { area, error, samples, .. } = &light.kind else { continue };
+        all.push(AreaLightSpec {
+            area: of(area, first),
+            radiance: light.color,
+            error: *error,
+            samples: *samples,
+            body: bodies.next().flatten(),
+        });
+        if let Area::Polygon { corners } = area {
+            first += corners.len().saturating_sub(1) as u32;
+        }
+    }
+    all
+}
+
 fn of(area: &Area, first: u32) -> scene::Area<'_> {
     match area {
         Area::Rectangle { corner, edges: [u, v] } => {

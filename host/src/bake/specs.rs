@@ -1,10 +1,10 @@
 //! What the core's materials, lights and surroundings are made from.
 
-use whitted::blob::{BackgroundSpec, CameraSpec, SettingSpec};
-use whitted::scene::{Falloff, LightSpec, MaterialSpec, PatternSpec, Shadow};
+use whitted::blob::{BackgroundSpec, CameraSpec, SelectionSpec, SettingSpec};
+use whitted::scene::{Falloff, LightSpec, MaterialSpec, PatternSpec, Shadow, TextureSpec};
 use whitted::shape::ShapeError;
 
-use crate::document::{self, Document, LightKind, ShadowThrough, Size};
+use crate::document::{self, Document, LightKind, LightSelection, ShadowThrough, Size};
 
 /// A material; its error is an index that the core can't hold.
 pub(super) fn material(m: &document::Material) -> Result<MaterialSpec, ShapeError> {
@@ -33,9 +33,42 @@ pub(super) fn material(m: &document::Material) -> Result<MaterialSpec, ShapeErro
         },
         pattern,
         fresnel: m.fresnel,
-        // Media lie elsewhere, in lists that the caller numbers; baked forms refuse textures.
+        // Media and textures lie elsewhere, in lists that `materials` numbers.
         ..MaterialSpec::BLACK
     })
+}
+
+/// All materials, which name textures, bumps and media by their places in lists where each
+/// material's follow those of the one before, its bump after its texture.
+pub(super) fn materials(document: &Document) -> Result<Vec<MaterialSpec>, ShapeError> {
+    let (mut textures, mut absorptions) = (0u16, 0u16);
+    let next = |wanted: bool, count: &mut u16| {
+        wanted.then(|| {
+            let index = *count;
+            *count = count.saturating_add(1);
+            index
+        })
+    };
+    let each = |m: &document::Material| {
+        Ok(MaterialSpec {
+            texture: next(m.texture.is_some(), &mut textures),
+            bump: next(m.bump.is_some(), &mut textures),
+            absorption: next(m.absorbs(), &mut absorptions),
+            ..material(m)?
+        })
+    };
+    document.materials.iter().map(each).collect()
+}
+
+/// The textures that they name.
+pub(super) fn textures(document: &Document) -> Result<Vec<TextureSpec<'static>>, ShapeError> {
+    let all = document.materials.iter().flat_map(|m| [&m.texture, &m.bump]).flatten();
+    let each = |texture: &document::Texture| {
+        let other = texture.other.map(u16::try_from).transpose();
+        let other = other.map_err(|_| ShapeError::Material)?;
+        Ok(TextureSpec { other, ..texture.spec })
+    };
+    all.map(each).collect()
 }
 
 /// A light that is a point or far away; `None` for one with an area.
@@ -85,5 +118,11 @@ pub(super) fn setting(document: &Document, size: Size) -> SettingSpec {
         lossy: rules.lossy_total_reflection,
         cutoff: rules.cutoff,
         depth: rules.depth,
+        selection: match rules.lights {
+            LightSelection::All => SelectionSpec::All,
+            LightSelection::Choose(count) => SelectionSpec::Choose(count),
+            LightSelection::Threshold(radiance) => SelectionSpec::Above(radiance),
+        },
+        light_jitter: rules.light_jitter,
     }
 }

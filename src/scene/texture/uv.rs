@@ -1,13 +1,27 @@
 //! Texture coordinates of triangles.
 
+use bytemuck::AnyBitPattern;
+
+use crate::blob::{Stored, put};
 use crate::shape::ShapeError;
 
 /// The texture coordinates (u, v) of a triangle's three corners, u to the right and v upwards, the
 /// whole picture from 0 to 1: twelve bytes, in steps of 1/4096 between −8 and 8. (What a mesh has
 /// beyond that is brought there by taking the same whole number from all three corners.)
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct TriangleUv {
     corners_q12: [[i16; 2]; 3],
+}
+
+impl Stored for TriangleUv {
+    fn store(&self, to: &mut [u8]) {
+        put(&self.corners_q12, to, 0);
+    }
+
+    fn is_sound(&self) -> bool {
+        true
+    }
 }
 
 impl TriangleUv {
