@@ -19,25 +19,17 @@ const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Bytes of `Work` without and for each generation of rays, in either arithmetic.
 const WORK: [u64; 2] = [420, 48];
-/// Bytes of stack that each generation takes at most: twice what `Work` grows by, since a compiler
-/// may make it in one place and move it to another.
-const GENERATION: u64 = 96;
 /// Bytes of a sample that a sampling remembers, and of a pixel in a row.
 const SAMPLE: u64 = 16;
 const PIXEL: u64 = 3;
 
-/// Bytes of stack that a frame takes at most beside generations, row and samples: what doesn't
-/// depend on the depth of the tracer's memory, its calls, and the renderer.
-const fn calls(arith: ArithName) -> u64 {
-    match arith {
-        ArithName::Fixed => 2_560,
-        ArithName::F32 => 1_920,
-    }
-}
+/// Bytes of stack that a frame takes at most beside generations, row and samples, in either
+/// arithmetic: what doesn't depend on the depth of the tracer's memory, its calls, and the renderer.
+const CALLS: u64 = 3_584;
 
 /// The bound on a frame's stack.
-fn bound(arith: ArithName, depth: usize, row: u64, samples: usize) -> u64 {
-    calls(arith) + GENERATION * depth as u64 + row + SAMPLE * samples as u64
+fn bound(depth: usize, row: u64, samples: usize) -> u64 {
+    CALLS + WORK[1] * depth as u64 + row + SAMPLE * samples as u64
 }
 
 /// A line of the table: a core's image at every depth.
@@ -92,7 +84,7 @@ fn depths(machine: &Machine) -> Result<Vec<Row>, String> {
             .records("depth")
             .filter(|record| record.get("arith") == Ok(arith.name()))
             .zip(depths::all(arith))
-            .map(|(record, here)| one(record, arith, &here))
+            .map(|(record, here)| one(record, &here))
             .collect::<Result<Vec<_>, _>>()?;
         match (stacks.len(), arith) {
             (DEEPEST, _) => rows.push(Row { core: machine.core, arith, stacks }),
@@ -105,7 +97,7 @@ fn depths(machine: &Machine) -> Result<Vec<Row>, String> {
 }
 
 /// The stack at a depth, if all is as it should be.
-fn one(record: Record<'_>, arith: ArithName, here: &depths::Depth) -> Result<u64, String> {
+fn one(record: Record<'_>, here: &depths::Depth) -> Result<u64, String> {
     let (depth, memory) = (record.number("depth")?, record.number("memory")?);
     let sum = format!("{:016x}", (here.draw)().value());
     if depth != here.depth as u64 || record.get("checksum")? != sum {
@@ -115,8 +107,7 @@ fn one(record: Record<'_>, arith: ArithName, here: &depths::Depth) -> Result<u64
         return Err(format!("{memory} bytes of Work at depth {depth}"));
     }
     let stack = record.number("stack")?;
-    within(stack, bound(arith, here.depth, ROW as u64, 0))
-        .map_err(|e| format!("depth {depth}: {e}"))
+    within(stack, bound(here.depth, ROW as u64, 0)).map_err(|e| format!("depth {depth}: {e}"))
 }
 
 fn within(stack: u64, bound: u64) -> Result<u64, String> {
@@ -133,11 +124,10 @@ pub(crate) fn frames(log: &Log, jobs: &[Job]) -> Result<(), String> {
     for job in jobs {
         let samples = if job.sampling == Sampling::Center { 0 } else { MAX_SAMPLES };
         let stack = result(log, job)?.number("stack")?;
-        within(stack, bound(job.arith, MAX_DEPTH, row, samples))
-            .map_err(|e| format!("{job}: {e}"))?;
+        within(stack, bound(MAX_DEPTH, row, samples)).map_err(|e| format!("{job}: {e}"))?;
     }
     for shown in log.records("shown") {
-        within(shown.number("stack")?, bound(ArithName::Fixed, MAX_DEPTH, row, 0))?;
+        within(shown.number("stack")?, bound(MAX_DEPTH, row, 0))?;
     }
     Ok(())
 }
