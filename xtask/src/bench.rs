@@ -8,10 +8,12 @@ use std::time::Duration;
 
 use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SAMPLINGS, SceneName};
+use whitted_demo::rebuild::SHAPES;
 
 use crate::elf;
-use crate::firmware::result;
+use crate::firmware::{rebuilt, result};
 use crate::machine::{self, MACHINES, Machine, Record};
+use crate::pico;
 use crate::setup;
 use crate::shell::{boards, root};
 
@@ -79,6 +81,21 @@ const FRAMES: Table = Table {
     rows: Vec::new(),
 };
 
+/// Of the emulated RP2040, whose memory never waits.
+const CYCLES: Table = Table {
+    title: "Cycles of the RP2040, one core",
+    head: &["core", "scene", "arithmetic", "size", "cycles/pixel", "change"],
+    measure: 4,
+    rows: Vec::new(),
+};
+
+const REBUILDS: Table = Table {
+    title: "Trees built on the chip",
+    head: &["core", "shapes", "instructions", "change", "tree, words", "scratch, words"],
+    measure: 2,
+    rows: Vec::new(),
+};
+
 const IMAGES: Table = Table {
     title: "Images",
     head: &["image", "target", "code, bytes", "change", "constants, bytes", "static RAM, bytes"],
@@ -92,8 +109,11 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     let path = root().join("bench/table.md");
     let before = committed(&path);
     let (mut frames, mut images) = (FRAMES, IMAGES);
+    let (mut rebuilds, mut rp2040) = (REBUILDS, CYCLES);
     if options.machine.is_none() {
         kernels(&mut images)?;
+        println!("RP2040 (rp2040py) …");
+        cycles(&mut rp2040)?;
     }
     let mut seen = Vec::new();
     for machine in &MACHINES {
@@ -102,7 +122,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         }
         println!("{} ({}) …", machine.core, machine.machine);
         let firmware = machine.build()?;
-        let memory = count(machine, &firmware, &mut frames)?;
+        let memory = count(machine, &firmware, &mut frames, &mut rebuilds)?;
         if !seen.contains(&firmware) {
             let name = format!("firmware {}, all scenes in both", machine.board);
             image(&mut images, &name, machine.target, &firmware, Some(memory))?;
@@ -111,7 +131,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     }
     let mut worse = Vec::new();
     let mut text = HEADER.to_owned();
-    for table in [&mut frames, &mut images] {
+    for table in [&mut frames, &mut rp2040, &mut rebuilds, &mut images] {
         compare(table, &before, &mut worse);
         text.push_str(&table.to_markdown());
     }
@@ -146,6 +166,10 @@ the same on every machine.
   of 320 pixels (960 bytes) among it.
 - A sampling stands behind its scene (`docs/sampling.md`); its stack holds 560 samples of 16 bytes.
 - Software floating point (f32 on Cortex-M0 and M3) is counted on small frames.
+- `gfxcat` is a plane and three mirrors, one bounce, one shadow ray; `spheres64` 64 spheres at random in
+  an octree, one ray a pixel and no shading.
+- The RP2040's cycles are rp2040py's, of tracing alone. It takes memory never to wait.
+- A tree is built over spheres at random and checked, in the caller's memory.
 - The images `limit-fixed` and `limit-f32` hold a row of the limit scene, 240 pixels of RGB565,
   and nothing else.
 ";
@@ -157,6 +181,8 @@ fn jobs(machine: &Machine) -> Vec<Job> {
         (SceneName::Limit, 240, 240),
         (SceneName::Raystones, 120, 60),
         (SceneName::Ftb, 160, 120),
+        (SceneName::Gfxcat, 320, 240),
+        (SceneName::Spheres64, 120, 120),
         (SceneName::Bathroom, 160, 120),
     ];
     let job = |(scene, width, height), arith| {
@@ -166,8 +192,9 @@ fn jobs(machine: &Machine) -> Vec<Job> {
     };
     let all = sizes.into_iter().flat_map(|size| ArithName::ALL.map(|arith| job(size, arith)));
     // Cores without a floating-point unit have no flash for that.
-    let soft = |job: &Job| job.scene == SceneName::Bathroom && job.arith == ArithName::F32;
-    let mut jobs: Vec<Job> = all.filter(|job| machine.float || !soft(job)).collect();
+    let soft = |job: &Job| job.scene.is_soft_in_fixed_alone() && job.arith == ArithName::F32;
+    let mut jobs: Vec<Job> =
+        all.filter(|job| machine.carries(job) && (machine.float || !soft(job))).collect();
     // The samplings, where they matter: the smallest core, and one with a floating-point unit.
     let arith = if machine.float { ArithName::F32 } else { ArithName::Fixed };
     if ["Cortex-M0", "Cortex-M4F"].contains(&machine.core) {
@@ -180,11 +207,58 @@ fn jobs(machine: &Machine) -> Vec<Job> {
     jobs
 }
 
+/// The scenes that the Pico's image carries.
+fn cycles(table: &mut Table) -> Result<(), String> {
+    let job = |(scene, width, height)| {
+        let (arith, sampling) = (ArithName::Fixed, Sampling::Center);
+        Job { scene, arith, width, height, sampling }
+    };
+    let jobs = [
+        (SceneName::Showcase, 80, 60),
+        (SceneName::Limit, 240, 240),
+        (SceneName::Raystones, 120, 60),
+        (SceneName::Ftb, 160, 120),
+    ]
+    .map(job);
+    for (job, cycles) in jobs.iter().zip(pico::cycles(&jobs)?) {
+        let each = cycles as f64 / (f64::from(job.width) * f64::from(job.height));
+        table.rows.push(vec![
+            "RP2040".into(),
+            job.scene.name().into(),
+            job.arith.name().into(),
+            format!("{}×{}", job.width, job.height),
+            format!("{each:.0}"),
+            String::new(),
+        ]);
+    }
+    Ok(())
+}
+
 /// Runs a machine's jobs; returns the bytes of static RAM.
-fn count(machine: &Machine, firmware: &Path, table: &mut Table) -> Result<u64, String> {
+fn count(
+    machine: &Machine,
+    firmware: &Path,
+    table: &mut Table,
+    rebuilds: &mut Table,
+) -> Result<u64, String> {
     let dump = firmware.with_extension("ppm");
     let jobs = jobs(machine);
-    let log = machine.run(firmware, &jobs, &dump, PATIENCE)?;
+    let mut words: Vec<String> = jobs.iter().map(Job::to_string).collect();
+    let shapes = if machine.rebuilds() { &SHAPES[..] } else { &[] };
+    words.extend(shapes.iter().map(|n| format!("rebuild:{n}")));
+    let log = machine.run(firmware, &words, &dump, PATIENCE)?;
+    for &shapes in shapes {
+        let record = rebuilt(&log, shapes)?;
+        let cell = |key| record.get(key).map(String::from);
+        rebuilds.rows.push(vec![
+            machine.core.into(),
+            shapes.to_string(),
+            cell("instructions")?,
+            String::new(),
+            cell("words")?,
+            cell("scratch")?,
+        ]);
+    }
     let mut memory = 0;
     for job in &jobs {
         let record = result(&log, job)?;

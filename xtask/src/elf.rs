@@ -78,6 +78,42 @@ fn inlined(lines: &Loader, address: u64) -> String {
     text
 }
 
+/// The functions of a program that compute in double precision in software: by the names that the
+/// Arm ABI gives them, and by those of the compiler's library.
+pub(crate) fn doubles(path: &Path) -> Result<Vec<String>, String> {
+    with(path, |elf| {
+        let functions = elf.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text);
+        let mut found: Vec<_> = functions
+            .map(|function| name(function.name()))
+            .filter(|function| is_double(function))
+            .collect();
+        found.sort();
+        found.dedup();
+        Ok(found)
+    })
+}
+
+/// Whether a function is one of double precision's.
+fn is_double(function: &str) -> bool {
+    let name = function.rsplit("::").next().unwrap_or(function);
+    match name.strip_prefix("__aeabi_") {
+        // Arithmetic, comparisons, from doubles; to doubles.
+        Some(rest) => {
+            ["dadd", "dsub", "drsub", "dmul", "ddiv", "dcmp", "cdcmp", "cdrcmp", "dneg", "d2"]
+                .iter()
+                .any(|operation| rest.starts_with(operation))
+                || rest.ends_with("2d")
+        }
+        // As `__muldf3`, `__ltdf2`, `__extendsfdf2`, `__fixdfsi`, `__floatsidf`.
+        None => {
+            name.starts_with("__")
+                && ["df2", "df3", "dfsi", "dfdi", "dfti", "sidf", "didf", "tidf", "dfsf2"]
+                    .iter()
+                    .any(|operation| name.ends_with(operation))
+        }
+    }
+}
+
 /// What a program puts into memory: bytes and the address they are loaded from.
 pub(crate) fn segments(path: &Path) -> Result<Vec<(u64, Vec<u8>)>, String> {
     with(path, |elf| {
@@ -115,4 +151,26 @@ fn with<T>(
     let data = std::fs::read(path).map_err(|error| place(&error))?;
     let elf = ElfFile32::<object::Endianness>::parse(&*data).map_err(|error| place(&error))?;
     read(&elf)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_double;
+
+    #[test]
+    fn double_precision_is_told_by_its_names() {
+        for name in
+            ["__aeabi_dmul", "__aeabi_dcmplt", "__aeabi_f2d", "__aeabi_ui2d", "__aeabi_d2iz"]
+        {
+            assert!(is_double(name), "{name}");
+        }
+        for name in ["compiler_builtins::float::mul::__muldf3", "__floatunsidf", "__truncdfsf2"] {
+            assert!(is_double(name), "{name}");
+        }
+        for name in
+            ["__aeabi_fmul", "__aeabi_idiv0", "__aeabi_memcpy", "__mulsf3", "__udivmoddi4", "draw"]
+        {
+            assert!(!is_double(name), "{name}");
+        }
+    }
 }

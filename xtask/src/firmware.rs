@@ -6,8 +6,9 @@ use std::time::Duration;
 use whitted::tally::Counts;
 use whitted_demo::frame;
 use whitted_demo::job::{Job, JobError};
+use whitted_demo::rebuild::{SHAPES, rebuild};
 
-use crate::elf::{Sizes, sizes};
+use crate::elf::{self, Sizes, sizes};
 use crate::machine::{Log, MACHINES, Record, built};
 use crate::oled;
 use crate::report::Report;
@@ -24,7 +25,6 @@ const BALLS: f64 = 3.5;
 
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
-    let jobs: Vec<Job> = Job::small().collect();
     report
         .check("baked: a scene baked by the build script, read in place", || baked("baked", None));
     let name = "baked: the bathroom, its window an area light, irradiance records in flash";
@@ -41,21 +41,33 @@ pub(crate) fn check(report: &mut Report) {
     crate::stack::check(report);
     report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in &MACHINES {
+        let jobs: Vec<Job> = Job::small().filter(|job| machine.carries(job)).collect();
         let name = format!("{} ({}) runs", machine.core, machine.machine);
         let Some((log, dump)) = report.check(&name, || {
             let firmware = machine.build()?;
             let dump = firmware.with_extension("ppm");
             // A picture from before proves nothing.
             let _ = std::fs::remove_file(&dump);
-            Ok((machine.run(&firmware, &jobs, &dump, PATIENCE)?, dump))
+            let mut words: Vec<String> = jobs.iter().map(Job::to_string).collect();
+            if machine.rebuilds() {
+                words.extend(SHAPES.map(|n| format!("rebuild:{n}")));
+            }
+            Ok((machine.run(&firmware, &words, &dump, PATIENCE)?, dump))
         }) else {
             continue;
         };
+        report.check(&format!("{}: nothing computes in double precision", machine.core), || {
+            no_double(&dump.with_extension(""))
+        });
         report.check(&format!("{}: the clock counts instructions", machine.core), || clock(&log));
         for job in &jobs {
             report.check(&format!("{}: {job} has the host's bits", machine.core), || {
                 same_bits(&log, job)
             });
+        }
+        for shapes in SHAPES.into_iter().filter(|_| machine.rebuilds()) {
+            let name = format!("{}: a tree over {shapes} shapes is the host's", machine.core);
+            report.check(&name, || rebuilt(&log, shapes).map(drop));
         }
         report.check(&format!("{}: the frames' stack is within its bound", machine.core), || {
             crate::stack::frames(&log, &jobs)
@@ -141,6 +153,28 @@ fn check_balls(report: &mut Report) {
             println!("     {times:.2} times");
             if times <= BALLS { Ok(()) } else { Err(format!("{times:.2} times")) }
         });
+    }
+}
+
+/// An image holds no software for double precision: no board computes in it, and one slip in a
+/// hot loop would cost thousands of instructions.
+pub(crate) fn no_double(firmware: &Path) -> Result<(), String> {
+    let found = elf::doubles(firmware)?;
+    if found.is_empty() { Ok(()) } else { Err(format!("it holds {}", found.join(", "))) }
+}
+
+/// What a board said of a tree that it built, which is the host's to the word.
+pub(crate) fn rebuilt(log: &Log, shapes: usize) -> Result<Record<'_>, String> {
+    let record = log
+        .records("rebuilt")
+        .find(|record| record.number("shapes") == Ok(shapes as u64))
+        .ok_or_else(|| format!("no tree over {shapes} shapes"))?;
+    let there = record.get("checksum")?;
+    let checksum = format!("{:016x}", rebuild(shapes, &mut ()).checksum.value());
+    if there == checksum {
+        Ok(record)
+    } else {
+        Err(format!("checksum {there}, on the host {checksum}"))
     }
 }
 

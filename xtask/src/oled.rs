@@ -119,7 +119,7 @@ fn in_flash(image: &Path, places: &[usize]) -> Result<(), String> {
     std::fs::write(&patched, &bytes).map_err(|error| format!("{}: {error}", patched.display()))?;
     let dump = image.with_extension("ppm");
     let _ = std::fs::remove_file(&dump);
-    let log = OLED.run(&patched, &[], &dump, PATIENCE)?;
+    let log = OLED.run::<&str>(&patched, &[], &dump, PATIENCE)?;
 
     let mut here = scene.to_vec();
     places.iter().for_each(|&at| here[at] ^= 0xFF);

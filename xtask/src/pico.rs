@@ -135,6 +135,17 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
+/// The cycles that the firmware of the first display spends tracing, on one core.
+pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
+    let display = &DISPLAYS[0];
+    let image = build(display)?;
+    let traced = |&job: &Job| {
+        let order = Order { display, job, way: WAYS[2], stick: None };
+        emulate(&image, &order).map(|frame| frame.cycles)
+    };
+    jobs.iter().map(traced).collect()
+}
+
 /// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
 /// the sending.
 pub(crate) fn check(report: &mut Report) {

@@ -86,7 +86,7 @@ pub(crate) fn run() -> Result<(), String> {
 /// Runs a board's image and compares pictures, memory and stack.
 fn depths(machine: &Machine) -> Result<Vec<Row>, String> {
     let image = machine::build(&boards().join(machine.board), "depths", machine.target)?;
-    let log = machine.run(&image, &[], &image.with_extension("ppm"), PATIENCE)?;
+    let log = machine.run::<&str>(&image, &[], &image.with_extension("ppm"), PATIENCE)?;
     let mut rows = Vec::new();
     for arith in ArithName::ALL {
         let stacks = log

@@ -53,7 +53,16 @@ impl Board {
 
     /// Draws the jobs of the command line, or else [`Job::small`], one result line each.
     pub fn draw_all(&mut self) {
-        for_each_job(|job| self.draw(job));
+        let any = for_each_word(|word| {
+            #[cfg(feature = "counted")]
+            if let Some(shapes) = word.strip_prefix("rebuild:").and_then(|n| n.parse().ok()) {
+                return self.rebuild(shapes);
+            }
+            self.draw(&job(word));
+        });
+        if !any {
+            Job::small().for_each(|job| self.draw(&job));
+        }
     }
 
     /// Draws one job and prints its result.
@@ -72,6 +81,21 @@ impl Board {
         #[cfg(feature = "rays")]
         print_rays(job, checksum);
         println!();
+    }
+
+    /// Builds a tree over so many shapes and prints a line `rebuilt …`.
+    #[cfg(feature = "counted")]
+    fn rebuild(&mut self, shapes: usize) {
+        let built = crate::rebuild::rebuild(shapes, &mut self.counter);
+        let instructions = self.instructions();
+        println!(
+            "rebuilt board={} shapes={shapes} checksum={:016x} instructions={instructions} \
+             words={} scratch={}",
+            self.name,
+            built.checksum.value(),
+            built.words,
+            built.scratch,
+        );
     }
 
     /// Draws the frame of [`depths`] with memory for each depth, and prints a line `depth …` about
@@ -122,23 +146,33 @@ impl Board {
     }
 }
 
-/// Does something with the jobs of the command line, or else with [`Job::small`].
-pub fn for_each_job(mut each: impl FnMut(&Job)) {
+/// Does something with each word of the command line; whether there are any.
+fn for_each_word(mut each: impl FnMut(&str)) -> bool {
     let args = semihosting::experimental::env::args::<COMMAND_LINE>().ok();
     // The first is the firmware's path.
-    let args = args.iter().flatten().skip(1).filter_map(Result::ok);
+    let words = args.iter().flatten().skip(1).filter_map(Result::ok);
     let mut any = false;
-    for arg in args {
+    for word in words {
         any = true;
-        match arg.parse() {
-            Ok(job) => each(&job),
-            Err(error) => {
-                println!("error {arg}: {error}");
-                exit(false)
-            }
+        each(word);
+    }
+    any
+}
+
+/// The job that a word of the command line asks for.
+fn job(word: &str) -> Job {
+    match word.parse() {
+        Ok(job) => job,
+        Err(error) => {
+            println!("error {word}: {error}");
+            exit(false)
         }
     }
-    if !any {
+}
+
+/// Does something with the jobs of the command line, or else with [`Job::small`].
+pub fn for_each_job(mut each: impl FnMut(&Job)) {
+    if !for_each_word(|word| each(&job(word))) {
         Job::small().for_each(|job| each(&job));
     }
 }

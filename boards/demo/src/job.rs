@@ -17,6 +17,10 @@ pub enum SceneName {
     Raystones,
     /// A peer's scene: the "business card" spheres of FTB.
     Ftb,
+    /// A scene like gfxcat's: three mirroring spheres on a plane, one bounce, one light.
+    Gfxcat,
+    /// 64 glowing spheres in an octree: a pixel is one ray.
+    Spheres64,
     /// A room of 451 shapes, lit through its window: baked from
     /// `host/scenes/bathroom-small.toml`.
     Bathroom,
@@ -24,8 +28,29 @@ pub enum SceneName {
 
 impl SceneName {
     /// Every scene.
-    pub const ALL: [Self; 5] =
-        [Self::Showcase, Self::Limit, Self::Raystones, Self::Ftb, Self::Bathroom];
+    pub const ALL: [Self; 7] = [
+        Self::Showcase,
+        Self::Limit,
+        Self::Raystones,
+        Self::Ftb,
+        Self::Gfxcat,
+        Self::Spheres64,
+        Self::Bathroom,
+    ];
+
+    /// Whether it is there to be counted, on boards with flash to spare: those with the feature
+    /// `counted`.
+    #[must_use]
+    pub const fn is_for_counting(self) -> bool {
+        matches!(self, Self::Gfxcat | Self::Spheres64)
+    }
+
+    /// Whether Arm cores that would compute `f32` in software have it in fixed point alone, for
+    /// want of flash.
+    #[must_use]
+    pub const fn is_soft_in_fixed_alone(self) -> bool {
+        matches!(self, Self::Gfxcat | Self::Spheres64 | Self::Bathroom)
+    }
 
     /// The name as written in a job.
     #[must_use]
@@ -35,6 +60,8 @@ impl SceneName {
             Self::Limit => "limit",
             Self::Raystones => "raystones",
             Self::Ftb => "ftb",
+            Self::Gfxcat => "gfxcat",
+            Self::Spheres64 => "spheres64",
             Self::Bathroom => "bathroom",
         }
     }
@@ -98,7 +125,7 @@ pub const SAMPLINGS: [(&str, Sampling); 5] = [
 impl Job {
     /// What firmware draws when nobody says what: every scene in both arithmetics, at a size that
     /// software floating point finishes in a second or so.
-    /// The samplings are tried in fixed point.
+    /// The samplings, and what not every board has in `f32`, are tried in fixed point.
     pub fn small() -> impl Iterator<Item = Self> {
         let job = |scene, arith, sampling| {
             let (width, height) = if scene == SceneName::Bathroom { (40, 30) } else { (80, 60) };
@@ -107,7 +134,8 @@ impl Job {
         let scenes = SceneName::ALL
             .into_iter()
             .flat_map(move |s| ArithName::ALL.map(|arith| job(s, arith, Sampling::Center)))
-            .filter(|job| job.scene != SceneName::Bathroom || job.arith == ArithName::Fixed);
+            .filter(|job| !job.scene.is_soft_in_fixed_alone() || job.arith == ArithName::Fixed)
+            .filter(|job| carried(job.scene, job.arith));
         let fixed = ArithName::Fixed;
         scenes.chain(SAMPLINGS.map(|(_, sampling)| job(SceneName::Limit, fixed, sampling)))
     }
@@ -145,10 +173,12 @@ impl fmt::Display for JobError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Form => f.write_str("a job is written scene:arithmetic:WIDTHxHEIGHT"),
-            Self::Scene => f.write_str("scenes are showcase, limit, raystones, ftb and bathroom"),
+            Self::Scene => f.write_str(
+                "scenes are showcase, limit, raystones, ftb, gfxcat, spheres64 and bathroom",
+            ),
             Self::Arithmetic => f.write_str(
                 "arithmetics are fixed and f32, \
-                 this without bathroom and samplings where it is computed in software",
+                 this without some scenes and all samplings where it is computed in software",
             ),
             Self::Size => write!(
                 f,
@@ -166,13 +196,16 @@ impl core::error::Error for JobError {}
 /// Whether `f32` is computed in software, on an Arm core.
 const SOFT: bool = cfg!(all(target_arch = "arm", target_abi = "eabi"));
 
-/// Whether a scene is there in an arithmetic: the bathroom isn't where `f32` is computed in
-/// software, since the smallest flash would not hold it.
+/// Whether a scene is there in an arithmetic; on a PC all are.
 const fn carried(scene: SceneName, arith: ArithName) -> bool {
-    !(SOFT && matches!((scene, arith), (SceneName::Bathroom, ArithName::F32)))
+    if scene.is_for_counting() && !cfg!(any(feature = "counted", not(target_os = "none"))) {
+        return false;
+    }
+    !(SOFT && scene.is_soft_in_fixed_alone() && matches!(arith, ArithName::F32))
 }
 
-/// Whether the samplings are there in an arithmetic: again, not where `f32` is computed in software.
+/// Whether the samplings are there in an arithmetic: not where `f32` is computed in software, since the
+/// smallest flash would not hold them.
 pub(crate) const fn sampled(arith: ArithName) -> bool {
     !(SOFT && matches!(arith, ArithName::F32))
 }

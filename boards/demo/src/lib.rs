@@ -11,6 +11,7 @@ pub mod flash;
 pub mod frame;
 pub mod job;
 pub mod oled;
+pub mod rebuild;
 pub mod rgb565;
 pub mod room;
 pub mod scenes;

@@ -47,15 +47,14 @@ impl<A: Construct> Baked<A> {
             let why = "a blob holds 65535 of them".into();
             return Err(Problem::Unrepresentable { what, why }.anywhere());
         }
-        let made: Result<Option<(Vec<Record<A>>, f64)>, _> = match self.glow(size)? {
+        let cache = match self.glow(size)? {
             Glow::Cache { records, error } => {
                 bits |= uses::IRRADIANCE_CACHE;
                 let records: Result<Vec<_>, _> = records.iter().map(A::new_record).collect();
-                records.map(|records| Some((records, error)))
+                Some((records.map_err(|e| refused("an irradiance record", e))?, error))
             }
-            Glow::None | Glow::VirtualLights { .. } => Ok(None),
+            Glow::None | Glow::VirtualLights { .. } => None,
         };
-        let cache = made.map_err(|e| refused("an irradiance record", e))?;
         let content = Content {
             shapes: Shapes {
                 spheres: parts.spheres,

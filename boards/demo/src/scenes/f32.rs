@@ -8,6 +8,12 @@ mod bathroom {
 }
 #[path = "ftb.rs"]
 mod ftb;
+#[cfg(all(
+    any(feature = "counted", not(target_os = "none")),
+    not(all(target_arch = "arm", target_abi = "eabi"))
+))]
+#[path = "gfxcat.rs"]
+mod gfxcat;
 #[path = "limit.rs"]
 mod limit;
 #[path = "mirrors.rs"]
@@ -16,6 +22,12 @@ mod mirrors;
 mod raystones;
 #[path = "../../../../examples/showcase/scene.rs"]
 mod showcase;
+#[cfg(all(
+    any(feature = "counted", not(target_os = "none")),
+    not(all(target_arch = "arm", target_abi = "eabi"))
+))]
+#[path = "spheres64.rs"]
+mod spheres64;
 
 use whitted::frame::{Output, Tone};
 
@@ -63,13 +75,34 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
             let (scene, camera) = (&ftb::SCENE, &ftb::CAMERA);
             view.view(Shot { scene, camera, depth: 3, output: LINEAR })
         }
+        #[cfg(all(
+            any(feature = "counted", not(target_os = "none")),
+            not(all(target_arch = "arm", target_abi = "eabi"))
+        ))]
+        SceneName::Gfxcat => {
+            let (scene, camera) = (&gfxcat::SCENE, &gfxcat::CAMERA);
+            view.view(Shot { scene, camera, depth: 2, output: LINEAR })
+        }
+        #[cfg(all(
+            any(feature = "counted", not(target_os = "none")),
+            not(all(target_arch = "arm", target_abi = "eabi"))
+        ))]
+        SceneName::Spheres64 => {
+            let (scene, camera) = (&spheres64::SCENE, &spheres64::CAMERA);
+            view.view(Shot { scene, camera, depth: 1, output: LINEAR })
+        }
         #[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
         SceneName::Bathroom => {
             let (scene, camera) = (&bathroom::SCENE, &bathroom::CAMERA);
             view.view(Shot { scene, camera, depth: bathroom::DEPTH, output: Output::SRGB })
         }
-        // Not carried there: no job asks for it.
+        // Not carried there: no job asks for them.
         #[cfg(all(target_arch = "arm", target_abi = "eabi"))]
         SceneName::Bathroom => shot(SceneName::Limit, view),
+        #[cfg(not(all(
+            any(feature = "counted", not(target_os = "none")),
+            not(all(target_arch = "arm", target_abi = "eabi"))
+        )))]
+        SceneName::Gfxcat | SceneName::Spheres64 => shot(SceneName::Limit, view),
     }
 }

@@ -7,6 +7,9 @@ mod bathroom {
 }
 #[path = "ftb.rs"]
 mod ftb;
+#[cfg(any(feature = "counted", not(target_os = "none")))]
+#[path = "gfxcat.rs"]
+mod gfxcat;
 #[path = "limit.rs"]
 mod limit;
 #[path = "mirrors.rs"]
@@ -15,6 +18,9 @@ mod mirrors;
 mod raystones;
 #[path = "../../../../examples/showcase/scene.rs"]
 mod showcase;
+#[cfg(any(feature = "counted", not(target_os = "none")))]
+#[path = "spheres64.rs"]
+mod spheres64;
 
 use whitted::frame::{Output, Tone};
 
@@ -62,9 +68,22 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
             let (scene, camera) = (&ftb::SCENE, &ftb::CAMERA);
             view.view(Shot { scene, camera, depth: 3, output: LINEAR })
         }
+        #[cfg(any(feature = "counted", not(target_os = "none")))]
+        SceneName::Gfxcat => {
+            let (scene, camera) = (&gfxcat::SCENE, &gfxcat::CAMERA);
+            view.view(Shot { scene, camera, depth: 2, output: LINEAR })
+        }
+        #[cfg(any(feature = "counted", not(target_os = "none")))]
+        SceneName::Spheres64 => {
+            let (scene, camera) = (&spheres64::SCENE, &spheres64::CAMERA);
+            view.view(Shot { scene, camera, depth: 1, output: LINEAR })
+        }
         SceneName::Bathroom => {
             let (scene, camera) = (&bathroom::SCENE, &bathroom::CAMERA);
             view.view(Shot { scene, camera, depth: bathroom::DEPTH, output: Output::SRGB })
         }
+        // Not carried there: no job asks for them.
+        #[cfg(not(any(feature = "counted", not(target_os = "none"))))]
+        SceneName::Gfxcat | SceneName::Spheres64 => shot(SceneName::Limit, view),
     }
 }
