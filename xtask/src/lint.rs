@@ -61,6 +61,15 @@ pub(crate) fn check(report: &mut Report) {
     // It can't be run here: it is to link at least.
     step("microbit-v2: it links", &boards.join("microbit-v2"), "build -q --release", false);
     step("clippy, room", &boards.join("room"), "clippy -q", true);
+    // A workspace of its own.
+    let pico2 = boards.join("pico2");
+    step("format, pico2", &pico2, "fmt --all --check", false);
+    for features in ["rtt", "rtt,fixed"] {
+        let words = format!(
+            "clippy -q --locked --target-dir ../target --no-default-features --features {features}"
+        );
+        step(&format!("clippy, pico2, {features}"), &pico2, &words, true);
+    }
     // What people copy: its own workspace, and its own lock file, which must hold. It shares what
     // the boards have built.
     let template = root.join("template");
