@@ -3,9 +3,9 @@
 
 mod common;
 
-use common::scenes::{Tailored, double, fixed, single};
+use common::scenes::{Shot, Shots, Tailored, double, fixed, single};
 use whitted::frame::{Renderer, Settings};
-use whitted::math::{Arithmetic, Rgb};
+use whitted::math::{Arithmetic, Fixed, Rgb};
 use whitted::scene::{Camera, Scene, SceneError};
 use whitted::tally::Counts;
 use whitted::trace::Work;
@@ -77,6 +77,25 @@ fn any_ray_has_the_same_bits() {
     fixed::tailored(&mut Unseen);
     single::tailored(&mut Unseen);
     double::tailored(&mut Unseen);
+}
+
+#[test]
+fn nothing_is_left_of_the_scene_before() {
+    let draw = |shot: &Shot<Fixed>, work: &mut Work<Fixed, 5>| {
+        let settings = Settings { depth: shot.depth, ..Settings::new(24, 18) };
+        let mut renderer =
+            Renderer::new(shot.scene, shot.camera, settings, work, &mut []).expect("settings");
+        renderer.scan(0..24, 0..18).collect::<Vec<_>>()
+    };
+    for first in Fixed::SHOTS {
+        let mut work = Work::new();
+        draw(first, &mut work);
+        for second in Fixed::SHOTS {
+            let fresh = draw(second, &mut Work::new());
+            assert!(draw(second, &mut work) == fresh, "{} after {}", second.name, first.name);
+            draw(first, &mut work);
+        }
+    }
 }
 
 /// Refuses a scene without any one of the bits that it needs, and takes it with more.

@@ -2,7 +2,7 @@
 
 use super::area::{Point, areas};
 use super::select::selected;
-use super::sight::Sights;
+use super::sight::{Sights, may_be_few};
 use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
@@ -65,7 +65,8 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
     scratch: &mut Scratch<A>,
     tally: &mut T,
 ) -> Option<Rgb<A::Radiance>> {
-    let sight = at.sights.and_then(|sights| sights.light(number));
+    let sight = at.sights.filter(|_| may_be_few::<USES>());
+    let sight = sight.and_then(|sights| sights.light(number));
     // Within an opaque sphere no light from outside arrives.
     let opaque = !has(USES, uses::PASSING_SHADOWS) || scene.opaque_shadows;
     let Leaving { shape, inwards, .. } = at.shadow.leaving;

@@ -66,13 +66,18 @@ impl<A: Arithmetic> Sights<A> {
     /// Of no scene.
     pub(super) const NONE: Self = Self { eye: Sight::ANY, lights: [Sight::ANY; LIGHTS] };
 
-    /// Looks from an eye and from the scene's lights.
+    /// Looks from an eye and from the scene's lights. Nothing is left of the scene before.
     pub(super) fn look<const USES: u64>(
         &mut self,
         scene: &Scene<'_, A, USES>,
         eye: &[A::Length; 3],
     ) {
+        if !may_be_few::<USES>() {
+            // Nobody will ask.
+            return;
+        }
         if !are_few(scene) {
+            *self = Self::NONE;
             return;
         }
         self.eye.look(scene, eye, false);
