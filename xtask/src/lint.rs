@@ -58,8 +58,6 @@ pub(crate) fn check(report: &mut Report) {
     for board in ["pico-async", "microbit-v2"] {
         step(&format!("clippy, {board}"), &boards.join(board), "clippy -q", true);
     }
-    // It can't be run here: it is to link at least.
-    step("microbit-v2: it links", &boards.join("microbit-v2"), "build -q --release", false);
     step("clippy, room", &boards.join("room"), "clippy -q", true);
     // A workspace of its own.
     let pico2 = boards.join("pico2");

@@ -260,6 +260,12 @@ impl Machine {
         }
     }
 
+    /// Whether it has what is there to be counted, and nothing else: the other machines show that it
+    /// is right.
+    pub(crate) fn only_counts(&self) -> bool {
+        matches!(self.carries, Carries::Rest)
+    }
+
     /// Whether it builds trees when told to.
     pub(crate) fn rebuilds(&self) -> bool {
         !matches!(self.carries, Carries::Few)
