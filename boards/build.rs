@@ -7,14 +7,17 @@ use std::{env, fs};
 fn main() {
     let board = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    let map = board.join("memory.x");
+    let riscv = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "riscv32");
+    // A chip with cores of two kinds has two.
+    let other = board.join("memory-riscv32.x");
+    let map = if riscv && other.exists() { other } else { board.join("memory.x") };
     fs::copy(&map, out.join("memory.x")).expect("a board has a memory.x");
     println!("cargo::rerun-if-changed={}", map.display());
     println!("cargo::rustc-link-search={}", out.display());
     // Sections needn't start on a page: without this, gaps of up to 64 KiB appear in flash.
     println!("cargo::rustc-link-arg-bins=--nmagic");
     // riscv-rt's script doesn't include the map by itself.
-    if env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "riscv32") {
+    if riscv {
         println!("cargo::rustc-link-arg-bins=-Tmemory.x");
     }
     println!("cargo::rustc-link-arg-bins=-Tlink.x");

@@ -1,52 +1,31 @@
 //! The Raspberry Pi Pico, emulated: its image runs from reset, boot ROM first, and a model of the
 //! display receives the picture, which is compared with the host's.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use embedded_graphics::pixelcolor::raw::RawU16;
-use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
-use embedded_graphics::prelude::*;
-use whitted::frame::Sampling;
-use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted_demo::job::{Job, SceneName};
 use whitted_demo::rgb565;
 
 use crate::cores;
 use crate::elf;
 use crate::firmware::TWO_CORES;
 use crate::machine::{self, Record};
+use crate::order::{DISPLAYS, Display, Frame, Options, Order, SMALL, WAYS, compare, job};
 use crate::report::Report;
 use crate::setup;
 use crate::shell::{boards, output};
 
 const TARGET: &str = "thumbv6m-none-eabi";
-/// A display that the board is built for.
-struct Display {
-    /// As the board's feature.
-    name: &'static str,
-    /// Pixels across and down.
-    size: (u16, u16),
-    /// Where they begin in the controller's memory.
-    offset: (u16, u16),
-}
-
-/// All of them, the one of the default features first.
-const DISPLAYS: [Display; 4] = [
-    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0) },
-    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0) },
-    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26) },
-    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0) },
-];
-/// What the checks draw: the emulator does some ten million cycles a second, if nothing else runs.
-const SMALL: (u16, u16) = (60, 45);
 /// What they draw twice.
 const TINY: (u16, u16) = (30, 20);
 /// How frames get to the display.
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
 /// Sending by DMA may add this to tracing.
 const SENDING: f64 = 0.03;
+
+/// The chip's clock.
+const MHZ: f64 = 125.0;
 
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
@@ -56,83 +35,17 @@ cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full]
     (nothing is sent); displays are st7789-240x240, the default, st7789-240x320, st7735s-160x80
     and ili9341-320x240";
 
-/// A frame to emulate.
-struct Order<'a> {
-    display: &'a Display,
-    job: Job,
-    way: &'a str,
-    /// SPI stands still after so many bytes of the frame, once.
-    stick: Option<u32>,
-}
-
-/// What came of it.
-struct Frame {
-    /// The display's memory.
-    memory: Vec<u8>,
-    cycles: u64,
-    /// The emulator's line.
-    line: String,
-    /// What the firmware logged.
-    log: Vec<String>,
-}
-
 /// The command: draws a scene, writes what the display shows, compares, and says what it took.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
-    let mut scene = SceneName::Showcase;
-    let (mut size, mut way, mut file, mut display) = (Some(SMALL), WAYS[0], None, &DISPLAYS[0]);
-    let (pairs, rest) = words.as_chunks::<2>();
-    if !rest.is_empty() {
-        return Err(USAGE.into());
-    }
-    for &[option, value] in pairs {
-        match option {
-            "--scene" => {
-                scene = *SceneName::ALL.iter().find(|s| s.name() == value).ok_or(USAGE)?;
-            }
-            "--size" if value == "full" => size = None,
-            "--size" => {
-                let (width, height) = value.split_once('x').ok_or(USAGE)?;
-                let side = |text: &str| text.parse::<u16>().ok().filter(|&n| n > 0).ok_or(USAGE);
-                size = Some((side(width)?, side(height)?));
-            }
-            "--display" => display = DISPLAYS.iter().find(|d| d.name == value).ok_or(USAGE)?,
-            "--way" => way = *WAYS.iter().find(|&&way| way == value).ok_or(USAGE)?,
-            "-o" => file = Some(PathBuf::from(value)),
-            _ => return Err(USAGE.into()),
-        }
-    }
-    let size = size.unwrap_or(display.size);
-    if size.0 > display.size.0 || size.1 > display.size.1 {
-        return Err(USAGE.into());
-    }
+    let options = Options::read(words, USAGE, |_, _| false)?;
     setup::run()?;
-    let image = build(display)?;
-    let order = Order { display, job: job(scene, size), way, stick: None };
+    let image = build(options.display)?;
+    let Options { display, job, way, .. } = options;
+    let order = Order { display, job, way, stick: None };
     let frame = emulate(&image, &order)?;
-    if let Some(file) = file {
-        png(&file, display, &frame.memory)?;
-    }
-    let record = Record::new(&frame.line);
-    let pixels = u64::from(size.0) * u64::from(size.1);
-    println!(
-        "{} cycles, {} a pixel, {:.1} ms at 125 MHz (emulated, without flash-cache misses)",
-        frame.cycles,
-        frame.cycles / pixels,
-        frame.cycles as f64 / 125e3
-    );
-    println!(
-        "{} bytes sent; {} bytes of RAM free; {} cycles from reset to the frame",
-        record.get("bytes")?,
-        record.get("stack_free")?,
-        record.get("boot")?
-    );
     let sizes = elf::sizes(&image)?;
     println!("image: {} bytes of code, {} of constants", sizes.text, sizes.constants);
-    compare(&order, &frame)?;
-    if way != "trace" {
-        println!("the picture is the host's, to the bit");
-    }
-    Ok(())
+    options.report(&order, &frame, MHZ)
 }
 
 /// The cycles that the firmware of the first display spends tracing, on one core.
@@ -226,10 +139,6 @@ fn both_cores(job: &Job) -> Result<(), String> {
     if ratio >= TWO_CORES { Ok(()) } else { Err(format!("only {ratio:.2} times as fast")) }
 }
 
-fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
-    Job { scene, arith: ArithName::Fixed, width, height, sampling: Sampling::Center }
-}
-
 fn build(display: &Display) -> Result<PathBuf, String> {
     build_with(display, "rtt,one-core")
 }
@@ -256,96 +165,12 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     let line = text
         .lines()
         .find_map(|line| line.strip_prefix("frame "))
-        .ok_or("the emulator says nothing of a frame")?
-        .to_owned();
-    let cycles = Record::new(&line).number("cycles")?;
+        .ok_or("the emulator says nothing of a frame")?;
+    let record = Record::new(line);
+    let [cycles, bytes, free, boot] = ["cycles", "bytes", "stack_free", "boot"]
+        .map(|key| record.number(key));
     let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
     let log = text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
-    Ok(Frame { memory, cycles, line, log })
+    Ok(Frame { memory, cycles: cycles?, bytes: bytes?, free: free?, boot: boot?, log })
 }
 
-/// What the display is to hold: the picture in the upper left corner of black, or just that.
-fn expected(order: &Order<'_>) -> Vec<u8> {
-    let Job { scene, width, height, .. } = order.job;
-    let line = |width: u16| usize::from(width) * rgb565::BYTES;
-    let (across, down) = order.display.size;
-    let mut memory = vec![0; line(across) * usize::from(down)];
-    if order.way != "trace" {
-        let mut picture = vec![0; line(width) * usize::from(height)];
-        rgb565::draw(scene, width, height, &mut picture);
-        let rows = memory.chunks_exact_mut(line(across));
-        for (row, traced) in rows.zip(picture.chunks_exact(line(width))) {
-            row[..traced.len()].copy_from_slice(traced);
-        }
-    }
-    memory
-}
-
-fn compare(order: &Order<'_>, frame: &Frame) -> Result<(), String> {
-    let expected = expected(order);
-    let (here, _) = expected.as_chunks::<{ rgb565::BYTES }>();
-    let (there, _) = frame.memory.as_chunks::<{ rgb565::BYTES }>();
-    if here.len() != there.len() {
-        return Err(format!("{} pixels instead of {}", there.len(), here.len()));
-    }
-    let wrong: Vec<_> = (0..here.len()).filter(|&i| here[i] != there[i]).collect();
-    match wrong.first() {
-        None => Ok(()),
-        Some(&i) => Err(format!(
-            "{} of {} pixels differ; the first, at ({}, {}), is {:02x?}, on the host {:02x?}",
-            wrong.len(),
-            here.len(),
-            i % usize::from(order.display.size.0),
-            i / usize::from(order.display.size.0),
-            there[i],
-            here[i]
-        )),
-    }
-}
-
-/// Writes the display's memory as a PNG.
-fn png(path: &Path, display: &Display, memory: &[u8]) -> Result<(), String> {
-    let rgb: Vec<u8> = memory
-        .as_chunks::<{ rgb565::BYTES }>()
-        .0
-        .iter()
-        .flat_map(|&bytes| {
-            let color = Rgb888::from(Rgb565::from(RawU16::new(u16::from_be_bytes(bytes))));
-            [color.r(), color.g(), color.b()]
-        })
-        .collect();
-    let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    let file = File::create(path).map_err(|error| place(&error))?;
-    let (width, height) = (u32::from(display.size.0), u32::from(display.size.1));
-    let mut encoder = png::Encoder::new(BufWriter::new(file), width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(&rgb).and_then(|()| writer.finish()))
-        .map_err(|error| place(&error))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{DISPLAYS, Frame, Order, WAYS, compare, expected, job};
-    use whitted_demo::job::SceneName;
-
-    #[test]
-    fn one_wrong_bit_is_found() {
-        let display = &DISPLAYS[0];
-        let order =
-            Order { display, job: job(SceneName::Limit, (8, 6)), way: WAYS[0], stick: None };
-        let mut frame =
-            Frame { memory: expected(&order), cycles: 0, line: String::new(), log: Vec::new() };
-        assert!(frame.memory.iter().any(|&byte| byte != 0));
-        assert_eq!(compare(&order, &frame), Ok(()));
-        // The second pixel of the second row.
-        frame.memory[(usize::from(display.size.0) + 1) * 2 + 1] ^= 1;
-        let error = compare(&order, &frame).unwrap_err();
-        assert!(error.starts_with("1 of 57600 pixels differ; the first, at (1, 1)"), "{error}");
-        frame.memory.pop();
-        frame.memory.pop();
-        assert!(compare(&order, &frame).is_err());
-    }
-}

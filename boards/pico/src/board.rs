@@ -3,20 +3,20 @@
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::pixelcolor::RgbColor;
 use mipidsi::Builder;
-use rp2040_hal::clocks::{Clock, init_clocks_and_plls};
-use rp2040_hal::dma::DMAExt;
-use rp2040_hal::gpio::bank0::{Gpio12, Gpio14, Gpio15};
-use rp2040_hal::gpio::{
+
+use crate::chip::hal::clocks::{Clock, init_clocks_and_plls};
+use crate::chip::hal::dma::DMAExt;
+use crate::chip::hal::gpio::bank0::{Gpio12, Gpio14, Gpio15};
+use crate::chip::hal::gpio::{
     FunctionSioInput, FunctionSioOutput, Pin, PinState, Pins, PullDown, PullUp,
 };
-use rp2040_hal::{Sio, Spi, Timer, Watchdog, pac};
-
+use crate::chip::hal::{Sio, Spi, Watchdog, pac};
+use crate::chip::{self, Sleep, Timer};
 use crate::cores::Second;
 use crate::link::Link;
 use crate::panel;
-use crate::sleep::Sleep;
 
-/// The crystal of the Pico.
+/// The crystal of either board.
 const CRYSTAL_HZ: u32 = 12_000_000;
 
 /// The display, with the driver that knows its commands.
@@ -73,8 +73,8 @@ impl Board {
             &mut watchdog,
         )
         .expect("the crystal of a Pico");
-        let mut timer = Timer::new(chip.TIMER, &mut chip.RESETS, &clocks);
-        let sleep = Sleep::new(timer.alarm_0().expect("nobody has taken an alarm"));
+        let mut timer = chip::timer!(chip, clocks);
+        let sleep = Sleep::new(&mut timer);
 
         let sio = Sio::new(chip.SIO);
         let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);

@@ -1,19 +1,12 @@
 //! The second core: it traces rows of the frame that the first is drawing.
 
-use rp2040_hal::Sio;
-use rp2040_hal::multicore::{Multicore, Stack};
-use rp2040_hal::pac;
-use rp2040_hal::sio::SioFifo;
 use whitted_demo::deal::Claim;
 
+use crate::chip::hal::sio::SioFifo;
+use crate::chip::hal::{Sio, pac};
 use crate::draw;
 use crate::order::Frame;
 use crate::rows;
-
-/// Bytes of stack for the second core; the deepest frame takes some 3,000. Below it lies a guard.
-const STACK: usize = 6 * 1024;
-
-static MEMORY: Stack<{ STACK / 4 }> = Stack::new();
 
 /// The second core, seen from the first.
 pub(crate) struct Second {
@@ -24,14 +17,7 @@ pub(crate) struct Second {
 impl Second {
     /// Starts it, unless the image is built for one core.
     pub(crate) fn start(mut fifo: SioFifo, psm: &mut pac::PSM, ppb: &mut pac::PPB) -> Self {
-        let mut started = false;
-        if cfg!(not(feature = "one-core"))
-            && let Some(memory) = MEMORY.take()
-        {
-            let mut cores = Multicore::new(psm, ppb, &mut fifo);
-            let [_, second] = cores.cores() else { return Self { fifo, started } };
-            started = second.spawn(memory, serve).is_ok();
-        }
+        let started = cfg!(not(feature = "one-core")) && spawn(&mut fifo, psm, ppb);
         Self { fifo, started }
     }
 
@@ -46,6 +32,27 @@ impl Second {
             self.fifo.read_blocking();
         }
     }
+}
+
+/// Starts the second core; whether that worked.
+#[cfg(target_arch = "arm")]
+fn spawn(fifo: &mut SioFifo, psm: &mut pac::PSM, ppb: &mut pac::PPB) -> bool {
+    use crate::chip::hal::multicore::{Multicore, Stack};
+
+    /// Bytes of stack for the second core; the deepest frame takes some 3,000. Below it lies a guard.
+    const STACK: usize = 6 * 1024;
+    static MEMORY: Stack<{ STACK / 4 }> = Stack::new();
+
+    let mut cores = Multicore::new(psm, ppb, fifo);
+    let ([_, second], Some(memory)) = (cores.cores(), MEMORY.take()) else { return false };
+    second.spawn(memory, serve).is_ok()
+}
+
+/// The chip's crate starts no second core of this kind.
+#[cfg(not(target_arch = "arm"))]
+fn spawn(_: &mut SioFifo, _: &mut pac::PSM, _: &mut pac::PPB) -> bool {
+    let _ = serve as fn();
+    false
 }
 
 /// What the second core does: frames, until the power is off.

@@ -8,7 +8,6 @@ use embedded_graphics::prelude::*;
 use embedded_hal::digital::OutputPin;
 use whitted::Picture;
 use whitted::frame::{Output, Renderer, Rgb565};
-use whitted::math::Fixed;
 use whitted::trace::Work;
 use whitted_demo::deal::Claim;
 use whitted_demo::frame::MAX_DEPTH;
@@ -17,6 +16,7 @@ use whitted_demo::scenes::{Shot, Shots, View};
 use whitted_demo::stack;
 
 use crate::board::{Board, Display};
+use crate::chip::Number;
 use crate::cores::Second;
 use crate::link::Fault;
 use crate::log;
@@ -81,7 +81,7 @@ fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(),
             });
             sent
         }
-        Way::Graphics => Fixed::shot(frame.scene, Graphics { display, frame }),
+        Way::Graphics => Number::shot(frame.scene, Graphics { display, frame }),
         Way::Trace => {
             keep(second, frame);
             Ok(())
@@ -95,11 +95,11 @@ struct Graphics<'a> {
     frame: Frame,
 }
 
-impl View<Fixed> for Graphics<'_> {
+impl View<Number> for Graphics<'_> {
     type Output = Result<(), Fault>;
 
     #[inline(never)]
-    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), Fault> {
+    fn view<const USES: u64>(self, shot: Shot<Number, USES>) -> Result<(), Fault> {
         let mut work = Work::<_, MAX_DEPTH>::new();
         let Frame { width, height, .. } = self.frame;
         let renderer = rgb565::renderer(&shot, width, height, &mut work);
@@ -138,7 +138,7 @@ fn keep(second: &mut Second, frame: Frame) {
 
 /// Makes a tracer of a frame's rows, and has `share` give it rows of so many bytes.
 pub(crate) fn trace(frame: Frame, share: impl FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))) {
-    Fixed::shot(frame.scene, Rows { frame, share });
+    Number::shot(frame.scene, Rows { frame, share });
 }
 
 /// Tracing a frame's rows.
@@ -147,12 +147,12 @@ struct Rows<S> {
     share: S,
 }
 
-impl<S: FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))> View<Fixed> for Rows<S> {
+impl<S: FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))> View<Number> for Rows<S> {
     type Output = ();
 
     /// Not inlined: either core has the tracer's memory on its stack.
     #[inline(never)]
-    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) {
+    fn view<const USES: u64>(self, shot: Shot<Number, USES>) {
         let Self { frame, share } = self;
         let mut work = Work::<_, MAX_DEPTH>::new();
         let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);
@@ -163,7 +163,7 @@ impl<S: FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))> View<Fixed> for Rows<S> {
 /// Traces a row: one copy of a scene's tracer for all ways but that of embedded-graphics.
 #[inline(never)]
 fn row<const USES: u64>(
-    renderer: &mut Renderer<'_, Fixed, MAX_DEPTH, (), USES>,
+    renderer: &mut Renderer<'_, Number, MAX_DEPTH, (), USES>,
     y: u16,
     output: &Output,
     bytes: &mut [u8],

@@ -10,15 +10,16 @@ use core::convert::Infallible;
 use embedded_hal::digital::OutputPin;
 use embedded_hal_nb::spi::FullDuplex;
 use mipidsi::interface::{Interface, InterfaceKind};
-use rp2040_hal::dma::single_buffer::{Config, Transfer};
-use rp2040_hal::dma::{CH0, Channel};
-use rp2040_hal::fugit::MicrosDurationU64;
-use rp2040_hal::gpio::bank0::{Gpio8, Gpio9, Gpio10, Gpio11};
-use rp2040_hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown};
-use rp2040_hal::pac::{self, SPI1};
-use rp2040_hal::spi::{Enabled, Spi};
-use rp2040_hal::timer::{Instant, Timer};
 
+use crate::chip::Timer;
+use crate::chip::hal::dma::single_buffer::{Config, Transfer};
+use crate::chip::hal::dma::{CH0, Channel};
+use crate::chip::hal::fugit::MicrosDurationU64;
+use crate::chip::hal::gpio::bank0::{Gpio8, Gpio9, Gpio10, Gpio11};
+use crate::chip::hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown};
+use crate::chip::hal::pac::{self, SPI1};
+use crate::chip::hal::spi::{Enabled, Spi};
+use crate::chip::hal::timer::Instant;
 use crate::rows::{self, Band};
 
 /// SPI1 with its clock and its data line.

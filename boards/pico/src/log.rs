@@ -38,13 +38,25 @@ pub(crate) fn fault(_: &Order, fault: Fault) {
 pub(crate) fn frame(_: &Order, _: u64, _: usize, _: usize) {}
 
 #[cfg(feature = "rtt")]
-use {defmt_rtt as _, panic_probe as _};
+use defmt_rtt as _;
+#[cfg(all(feature = "rtt", target_arch = "arm"))]
+use panic_probe as _;
+
+/// Says why, as `panic-probe` does, which knows Arm's cores alone.
+#[cfg(all(feature = "rtt", not(target_arch = "arm")))]
+#[panic_handler]
+fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
+    defmt::error!("{}", defmt::Display2Format(info));
+    loop {
+        crate::chip::wait();
+    }
+}
 
 /// Stops; the display keeps what it shows.
 #[cfg(not(feature = "rtt"))]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {
-        cortex_m::asm::wfi();
+        crate::chip::wait();
     }
 }

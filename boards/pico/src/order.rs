@@ -2,9 +2,10 @@
 
 use core::ptr;
 
-use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted_demo::job::{Job, SceneName};
 use whitted_demo::rgb565;
 
+use crate::chip::ARITH;
 use crate::panel;
 
 /// A job and a way to draw it, as `limit:fixed:60x45 bands`, filled up with blanks; all blank in
@@ -65,7 +66,7 @@ impl Order {
     /// What [`ORDER`] says.
     ///
     /// # Panics
-    /// If it says what can't be done: a misspelt word, software floating point, or a frame larger
+    /// If it says what can't be done: a misspelt word, another arithmetic, or a frame larger
     /// than the display.
     pub(crate) fn given() -> Option<Self> {
         // SAFETY: a reference is readable. Volatile, because the image is patched after the
@@ -80,7 +81,7 @@ impl Order {
             Some("trace") => Way::Trace,
             Some(_) => panic!("ways are bands, graphics and trace"),
         };
-        assert!(job.arith == ArithName::Fixed, "this board draws in fixed point");
+        assert!(job.arith == ARITH, "this image draws in another arithmetic");
         let (width, height) = panel::SIZE;
         assert!(job.width <= width && job.height <= height, "the display is smaller");
         let frame = Frame { scene: job.scene, width: job.width, height: job.height };

@@ -5,7 +5,8 @@ use mipidsi::interface::Interface;
 #[cfg(any(feature = "st7735s-160x80", feature = "ili9341-320x240"))]
 use mipidsi::options::Rotation;
 use mipidsi::options::{ColorInversion, ColorOrder, Orientation};
-use rp2040_hal::fugit::HertzU32;
+
+use crate::chip::hal::fugit::HertzU32;
 
 /// What differs from display to display.
 struct Panel {
