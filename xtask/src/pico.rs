@@ -146,6 +146,11 @@ pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
     jobs.iter().map(traced).collect()
 }
 
+/// The firmware of the first display, for one core.
+pub(crate) fn image() -> Result<PathBuf, String> {
+    build(&DISPLAYS[0])
+}
+
 /// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
 /// the sending.
 pub(crate) fn check(report: &mut Report) {
