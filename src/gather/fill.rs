@@ -185,10 +185,14 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
 
     /// Follows a ray to diffuse surfaces, and gives them records where there are none.
     fn look(&mut self, kind: RayKind, ray: Ray<A>, pool: &mut Pool<'_, '_, A>) {
+        // The camera sees past a light that isn't visible; light from surface to surface doesn't.
+        let tracer = match kind {
+            RayKind::Primary => Tracer::new(self.scene, 1),
+            _ => Tracer::gathering(self.scene, 1),
+        };
         let mut way = Some((kind, ray));
         for _ in 0..MAX_SPECULAR {
             let Some((kind, ray)) = way else { return };
-            let tracer = Tracer::new(self.scene, 1);
             let Some(site) = tracer.site(kind, ray, self.work, self.tally) else { return };
             let (position, normal) = (site.position, site.surface.normal);
             if site.is_diffuse() && !pool.cache(&self.gathering).covers(&position, &normal) {

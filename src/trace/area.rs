@@ -1,6 +1,7 @@
 //! Direct light from areas: shadow rays to points of equal sub-areas. (The formulas are in
 //! `scene/area_light.rs`.)
 
+mod front;
 mod place;
 
 use super::direct::Shading;
@@ -11,6 +12,7 @@ use crate::scene::uses::{self, has};
 use crate::scene::{AreaLight, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
+pub(super) use front::front_before;
 use place::Seen;
 pub(crate) use place::point_of_light;
 
