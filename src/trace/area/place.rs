@@ -3,7 +3,7 @@
 //! Places on the unit square are integers, 65536 being 1, and so are the maps from there: all
 //! arithmetics send their rays to the same places.
 
-use crate::math::{Arithmetic, add, neg, sqrt_u32, sub};
+use crate::math::{Arithmetic, add, neg, sub};
 use crate::scene::{AreaLight, FanCorner, Form};
 
 /// A light seen from a point x.
@@ -239,23 +239,15 @@ fn disc(s: u32, t: u32) -> (i32, i32) {
     along_ring(far, far, near, steep)
 }
 
-/// The same for the middle of a cell with the sides `step`: a cell's middle lies nearer to the axis
-/// than the cell does on average, by 1/n² in the square of the radius where n cells lie side by
-/// side (the mean over the ring from i/m to (i + 1)/m is (i² + (i + 1)²)/2m², its middle's square
-/// (i + ½)²/m², and m is n/2). Moved out by that, the irradiance of a light half its diameter away is
-/// 0.3 % off with 64 cells, and not 1.3 %.
+/// The same for the middle of a cell with the sides `step`, at the cell's mean radius: a cell between
+/// the radii m − d and m + d has its mean at m + d²/3m. At m the light would seem too near to its axis:
+/// with 64 cells its irradiance, half its diameter away, is 1.3 % too large, and here 0.2 % too small.
 fn disc_middle(s: u32, t: u32, step: [u32; 2]) -> (i32, i32) {
     let (far, near, steep) = on_ring(s, t);
-    let wide = if steep { step[1] } else { step[0] };
-    let square = |x: u32| (x >> 1).wrapping_mul(x >> 1);
-    let radius = sqrt_u32(square(far.unsigned_abs()).wrapping_add(square(wide))) << 1;
-    let radius = radius.min(65536) as i32;
-    let radius = match far {
-        0 => 0,
-        _ if far < 0 => -radius,
-        _ => radius,
-    };
-    along_ring(radius, far, near, steep)
+    // d is as long on the disc's radius as a whole step on the square's side, at most ½.
+    let wide = (if steep { step[1] } else { step[0] }) as i32;
+    let out = wide.wrapping_mul(wide).checked_div(far.wrapping_mul(3)).unwrap_or(0);
+    along_ring(far.wrapping_add(out), far, near, steep)
 }
 
 /// A place of the square as that on one of its rings: the larger coordinate from the middle, the
@@ -381,7 +373,7 @@ mod tests {
                 let forms = [
                     (Area::Rectangle { corner: [-0.75, 2.0, -1.0], u, v }, middle, 3.0, 1.25),
                     (Area::Triangle { corners: triangle }, [0.4, 2.0, 0.3], 0.54, 0.75),
-                    (Area::Polygon { corners: &CORNERS, first: 0 }, middle, 0.48, 0.6),
+                    (Area::Polygon { corners: &CORNERS, first: 0 }, middle, 0.72, 0.4f64.sqrt()),
                     (
                         Area::Disc { center: middle, normal: down, radius: 0.5 },
                         middle,
@@ -398,7 +390,7 @@ mod tests {
                 let mut met = [0; 3];
                 for (area, center, size, half) in forms {
                     let flat = !matches!(area, Area::Sphere { .. });
-                    for (radiance, error) in [([0.2, 1.0, 0.5], 0.025), ([30.0, 2.0, 1.0], 0.4)] {
+                    for (radiance, error) in [([0.2, 1.0, 0.5], 0.005), ([30.0, 2.0, 1.0], 0.08)] {
                         let samples = [4, 100];
                         let spec = AreaLightSpec { area, radiance, error, samples, body: None };
                         let light = AreaLight::<A>::new(spec);
@@ -429,7 +421,7 @@ mod tests {
                         }
                     }
                 }
-                assert!(met.iter().all(|&n| n > 500), "{met:?}");
+                assert!(met.iter().all(|&n| n > 250), "{met:?}");
             }
         };
     }
