@@ -2,7 +2,7 @@
 
 mod common;
 
-use whitted::frame::{Renderer, Settings};
+use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::gather::VirtualLightSpec;
 use whitted::gather::{Draft, FillError, Gatherer, Gathering, GatheringSpec, Indirect, Record};
 use whitted::gather::{VirtualLight, VirtualLights, VirtualLightsSettings, VirtualLightsSpec};
@@ -400,11 +400,40 @@ fn the_order_changes_no_bit() {
     });
     assert_eq!(first.records(), second.records());
     let lit = scene.with_indirect(Indirect::Cache(first)).expect("uses");
-    let whole = picture!(A, &lit, &camera);
-    let mut work = Work::<A, 5>::new();
+    drawn_in_any_order(&lit, &camera);
+}
+
+/// The same with virtual lights, whose parts take turns over the pixels of a tile; laid twice, they
+/// are the same.
+#[test]
+fn the_order_changes_no_bit_of_virtual_light() {
+    type A = Fixed;
+    scene!(A, scene, camera);
+    for tile in [1, 2, 4] {
+        let settings = VirtualLightsSettings::<A>::new(VirtualLightsSpec {
+            tile,
+            ..VirtualLightsSpec::DEFAULT
+        });
+        let mut pools = [vec![VirtualLight::<A>::NONE; 128], vec![VirtualLight::<A>::NONE; 128]];
+        let [first, second] = pools.each_mut().map(|pool| {
+            let mut work = Work::<A, 5>::new();
+            VirtualLights::lay(&scene, &settings, pool, &mut work, &mut ())
+        });
+        let specs = |lights: VirtualLights<'_, A>| {
+            lights.lights().iter().map(VirtualLight::<A>::spec).collect::<Vec<_>>()
+        };
+        assert_eq!(specs(first), specs(second));
+        let lit = scene.with_indirect(Indirect::VirtualLights(first)).expect("uses");
+        drawn_in_any_order(&lit, &camera);
+    }
+}
+
+/// Draws a picture whole, by pieces from the bottom up, by lines, and by bands of some heights.
+fn drawn_in_any_order(lit: &Scene<'_, Fixed>, camera: &Camera<Fixed>) {
+    let whole = picture!(Fixed, lit, camera);
+    let mut work = Work::<Fixed, 5>::new();
     let settings = Settings::new(WIDTH, HEIGHT);
-    let mut renderer =
-        Renderer::new(&lit, &camera, settings, &mut work, &mut []).expect("settings");
+    let mut renderer = Renderer::new(lit, camera, settings, &mut work, &mut []).expect("settings");
     let middle = WIDTH / 2 - 3;
     for y in (0..HEIGHT).rev() {
         for columns in [middle..WIDTH, 0..middle] {
@@ -413,6 +442,21 @@ fn the_order_changes_no_bit() {
                 assert_eq!(radiance.map(Into::<f64>::into), whole[pixel], "{x} {y}");
             }
         }
+    }
+    let mut lines = vec![[Rgb888([0; 3]); WIDTH as usize]; HEIGHT.into()];
+    for (y, line) in (0..HEIGHT).zip(&mut lines).rev() {
+        renderer.line(y, &Output::SRGB, line);
+    }
+    let lines: Vec<u8> = lines.iter().flatten().flat_map(|pixel| pixel.0).collect();
+    for height in [1, 7, HEIGHT] {
+        let mut bytes = vec![0; usize::from(height) * usize::from(WIDTH) * 3];
+        let (mut y, mut all) = (0, Vec::new());
+        while y < HEIGHT {
+            let rows = renderer.band::<Rgb888>(y, &Output::SRGB, &mut bytes);
+            all.extend_from_slice(&bytes[..usize::from(rows) * usize::from(WIDTH) * 3]);
+            y += rows;
+        }
+        assert!(all == lines, "bands of {height}");
     }
 }
 

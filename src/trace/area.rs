@@ -127,7 +127,11 @@ pub(super) fn area<A: Arithmetic, T: Tally, const USES: u64>(
             let s = within(i, step_s, bits & 0xffff);
             let t = within(j, step_t, bits >> 16);
             // In front of the light by what positions may be wrong, so that the ray ends there.
-            let y = A::leave(&seen.point(s, t), &seen.normal, seen.distance);
+            let place = match seed {
+                None => seen.middle(light, s, t, [step_s, step_t]),
+                Some(_) => seen.point(s, t),
+            };
+            let y = A::leave(&place, &seen.normal, seen.distance);
             let (direction, distance, inverse) = A::normalize(&sub(&y, &ray.origin));
             let cosine = A::cosine(normal, &direction);
             let facing = -A::cosine(&seen.normal, &direction);
