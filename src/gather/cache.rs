@@ -27,7 +27,7 @@ pub(crate) const OVERLAP: f64 = 1.5;
 /// gets the same.
 ///
 /// A point asks those that may reach it: [`Gatherer`](super::Gatherer) leaves records in an order in which
-/// they are found by halving, without any memory but 216 bytes of stack. Records in another order, as they
+/// they are found by halving, without any memory but some on the stack. Records in another order, as they
 /// may stand in a `static` or a blob, are asked one by one, to the same result for that order. One that
 /// reaches the point takes some hundred instructions; there are about half a dozen. Where none does, the
 /// one of the least error counts.

@@ -237,11 +237,15 @@ for_each_arithmetic! {
                 reach: Length,
             }
 
+            const fn between(low: Length, x: Length, high: Length) -> bool {
+                !make::below(x, low) && !make::below(high, x)
+            }
+
             const fn holds(run: &Run<'_>, record: &Record<A>) -> bool {
                 let p = &record.position;
-                !(make::below(p[0], run.low[0]) || make::below(run.high[0], p[0]))
-                    && !(make::below(p[1], run.low[1]) || make::below(run.high[1], p[1]))
-                    && !(make::below(p[2], run.low[2]) || make::below(run.high[2], p[2]))
+                between(run.low[0], p[0], run.high[0])
+                    && between(run.low[1], p[1], run.high[1])
+                    && between(run.low[2], p[2], run.high[2])
                     && !make::below(run.reach, record.reach)
             }
 
