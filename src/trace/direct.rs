@@ -91,19 +91,25 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
         tally.shadowed(number, at.depth);
         return None;
     };
-    let mut factor = factor::<A, USES>(
-        &scene.parts.rules,
-        at.material,
-        at.highlights.then_some(at.mirror),
-        cosine,
-        &direction,
-    );
-    if has(USES, uses::COLORED_LIGHTS) {
-        factor = rgb(&factor, &light.color, A::weight);
+    let above = grey::<A, USES>(at.weight);
+    let lit = |cosine: A::Weight, coefficient: &Rgb<A::Weight>| {
+        // The same for all colours where rays are grey.
+        let mut e = above.map(|w| A::dim(irradiance, A::weight(w, cosine)));
+        if has(USES, uses::COLORED_LIGHTS) {
+            e = rgb(&e, &light.color, A::dim);
+        }
+        rgb(&e, coefficient, A::dim)
+    };
+    let mut radiance = lit(cosine, &at.material.diffuse);
+    if at.highlights
+        && let Some(highlight) =
+            highlight::<A, USES>(&scene.parts.rules, at.material, at.mirror, cosine, &direction)
+    {
+        radiance = rgb(&radiance, &lit(highlight, &at.material.specular), A::gather);
     }
-    let factor = rgb(&factor, &grey::<A, USES>(at.weight), A::weight);
-    let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
-    let radiance = factor.map(|f| A::dim(irradiance, f));
+    if !opaque {
+        radiance = rgb(&radiance, &share, A::dim);
+    }
     tally.term::<A>(Term::Direct { light: number }, &radiance);
     Some(radiance)
 }
@@ -118,21 +124,31 @@ pub(super) fn factor<A: Arithmetic, const USES: u64>(
     cosine: A::Weight,
     direction: &[A::Unit; 3],
 ) -> Rgb<A::Weight> {
-    let diffuse = material.diffuse;
-    let factor = diffuse.map(|k| A::weight(k, cosine));
-    if has(USES, uses::HIGHLIGHTS)
-        && material.shines
-        && let Some(mirror) = mirror
-    {
-        // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
-        let lobe = A::cosine(mirror, direction);
-        if lobe > A::NO_WEIGHT {
-            let mut highlight = A::power(lobe, &material.shininess);
-            if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
-                highlight = A::weight(highlight, cosine);
-            }
-            return rgb(&factor, &material.specular, |f, k| f + A::weight(k, highlight));
-        }
+    let factor = material.diffuse.map(|k| A::weight(k, cosine));
+    match mirror.and_then(|m| highlight::<A, USES>(rules, material, m, cosine, direction)) {
+        Some(highlight) => rgb(&factor, &material.specular, |f, k| f + A::weight(k, highlight)),
+        None => factor,
     }
-    factor
+}
+
+/// Phong's highlight, (R·L)ⁿ, or times the cosine, as the rules have it; `None` on the far side.
+#[inline(always)]
+fn highlight<A: Arithmetic, const USES: u64>(
+    rules: &Rules<A>,
+    material: &Material<A>,
+    mirror: &[A::Unit; 3],
+    cosine: A::Weight,
+    direction: &[A::Unit; 3],
+) -> Option<A::Weight> {
+    if !has(USES, uses::HIGHLIGHTS) || !material.shines {
+        return None;
+    }
+    // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
+    let lobe = A::cosine(mirror, direction);
+    if lobe <= A::NO_WEIGHT {
+        return None;
+    }
+    let highlight = A::power(lobe, &material.shininess);
+    let with_cosine = has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine;
+    Some(if with_cosine { A::weight(highlight, cosine) } else { highlight })
 }

@@ -4,11 +4,10 @@ use rp2040_hal::Sio;
 use rp2040_hal::multicore::{Multicore, Stack};
 use rp2040_hal::pac;
 use rp2040_hal::sio::SioFifo;
-use whitted_demo::deal::Claim;
 
 use crate::draw;
 use crate::order::Frame;
-use crate::rows;
+use crate::rows::{self, Empty, Row, Source};
 
 /// Bytes of stack for the second core; the deepest frame takes some 3,000. Below it lies a guard.
 const STACK: usize = 6 * 1024;
@@ -54,12 +53,25 @@ fn serve() {
     let mut fifo = Sio::new(unsafe { pac::Peripherals::steal() }.SIO).fifo;
     loop {
         let words = [(); Frame::WORDS].map(|()| fifo.read_blocking());
-        draw::trace(
-            Frame::from_words(words),
-            |line, row| {
-                while rows::work(line, &mut *row) != Claim::Over {}
-            },
-        );
+        let frame = Frame::from_words(words);
+        draw::trace(frame, &mut Leftovers { line: frame.line() });
         fifo.write_blocking(1);
+    }
+}
+
+/// What the second core traces: every row that the first hasn't taken.
+struct Leftovers {
+    line: usize,
+}
+
+impl Source for Leftovers {
+    fn next(&mut self) -> Option<Row> {
+        loop {
+            match rows::claim(self.line) {
+                Ok(row) => return Some(row),
+                Err(Empty::Now) => {}
+                Err(Empty::Forever) => return None,
+            }
+        }
     }
 }

@@ -501,6 +501,19 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn step(a: I16F16, b: I16F16, log2: u32) -> I16F16 {
+        let rise = b.to_bits().wrapping_sub(a.to_bits());
+        // A shift rounds down; what is added to negative numbers makes it round towards 0.
+        let bias = (rise >> 31) & (1i32.wrapping_shl(log2)).wrapping_sub(1);
+        I16F16::from_bits(rise.wrapping_add(bias).wrapping_shr(log2))
+    }
+
+    #[inline(always)]
+    fn steps(a: I16F16, step: I16F16, n: u16) -> I16F16 {
+        I16F16::from_bits(a.to_bits().wrapping_add(step.to_bits().wrapping_mul(i32::from(n))))
+    }
+
+    #[inline(always)]
     fn mean(sum: I16F16, count: u16) -> I16F16 {
         // Powers of two, the common case, need no division.
         if count.is_power_of_two() {
