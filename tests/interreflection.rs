@@ -474,7 +474,9 @@ fn a_full_pool() {
     let all = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut large, &mut []).expect("memory");
     let few = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut small, &mut []).expect("memory");
     assert!(few.is_full() && !all.is_full());
-    assert_eq!(few.records(), &all.records()[..10]);
+    // The first that were found; where they lie in the pool says how they are found again.
+    assert_eq!(few.records().len(), 10);
+    assert!(few.records().iter().all(|record| all.records().contains(record)));
     let none = gatherer.fill(&camera, (WIDTH, HEIGHT), &mut [], &mut []).expect("memory");
     assert!(none.is_full() && none.records().is_empty());
     let lit = scene.with_indirect(Indirect::Cache(few)).expect("uses");
