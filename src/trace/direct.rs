@@ -92,24 +92,24 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
         return None;
     };
     let above = grey::<A, USES>(at.weight);
-    let lit = |cosine: A::Weight, coefficient: &Rgb<A::Weight>| {
-        // The same for all colours where rays are grey.
-        let mut e = above.map(|w| A::dim(irradiance, A::weight(w, cosine)));
-        if has(USES, uses::COLORED_LIGHTS) {
-            e = rgb(&e, &light.color, A::dim);
-        }
-        rgb(&e, coefficient, A::dim)
+    // The first product is one for all colours where rays are grey.
+    let part = |cosine: A::Weight, coefficient: &Rgb<A::Weight>| {
+        rgb(&above.map(|w| A::weight(w, cosine)), coefficient, A::weight)
     };
-    let mut radiance = lit(cosine, &at.material.diffuse);
+    let mut factor = part(cosine, &at.material.diffuse);
     if at.highlights
         && let Some(highlight) =
             highlight::<A, USES>(&scene.parts.rules, at.material, at.mirror, cosine, &direction)
     {
-        radiance = rgb(&radiance, &lit(highlight, &at.material.specular), A::gather);
+        factor = rgb(&factor, &part(highlight, &at.material.specular), |a, b| a + b);
+    }
+    if has(USES, uses::COLORED_LIGHTS) {
+        factor = rgb(&factor, &light.color, A::weight);
     }
     if !opaque {
-        radiance = rgb(&radiance, &share, A::dim);
+        factor = rgb(&factor, &share, A::weight);
     }
+    let radiance = factor.map(|f| A::dim(irradiance, f));
     tally.term::<A>(Term::Direct { light: number }, &radiance);
     Some(radiance)
 }

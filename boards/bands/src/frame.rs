@@ -70,9 +70,9 @@ struct Band<'a> {
 impl<A: Shots> View<A> for Band<'_> {
     type Output = u16;
 
-    /// Not inlined: the tracer's memory is on the stack while a band is traced, and isn't kept in
-    /// the task for the time in between.
-    #[inline(never)]
+    /// The tracer's memory is on the stack while a band is traced, and isn't kept in the task for
+    /// the time in between.
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> u16 {
         let Frame { width, height, .. } = self.frame;
         let mut work = Work::<A, MAX_DEPTH>::new();

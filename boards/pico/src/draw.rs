@@ -7,9 +7,8 @@ use embedded_graphics::pixelcolor;
 use embedded_graphics::prelude::*;
 use embedded_hal::digital::OutputPin;
 use whitted::Picture;
-use whitted::frame::{Output, Renderer, Rgb565, Settings};
+use whitted::frame::{Renderer, Rgb565, Settings};
 use whitted::math::Fixed;
-use whitted::scene::{Camera, Scene};
 use whitted::tally::Tally;
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
@@ -90,6 +89,13 @@ fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(),
     }
 }
 
+/// Counts nothing. What counts by another type is another tracer, so that this way has one of its
+/// own: of a tracer that is called from two places the compiler makes a function that reads the scene
+/// from memory, which takes a third more cycles by either way.
+struct Apart;
+
+impl Tally for Apart {}
+
 /// Drawing with embedded-graphics.
 struct Graphics<'a> {
     display: &'a mut Display,
@@ -102,26 +108,6 @@ impl View<Fixed> for Graphics<'_> {
     #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), Fault> {
         let Shot { scene, camera, depth, output } = shot;
-        self.draw(scene, camera, depth, output)
-    }
-}
-
-/// Counts nothing. What counts by another type is another tracer, so that this way has one of its
-/// own: of a tracer that is called from two places the compiler makes a function that reads the scene
-/// from memory, which takes a third more cycles by either way.
-struct Apart;
-
-impl Tally for Apart {}
-
-impl Graphics<'_> {
-    #[inline(never)]
-    fn draw<const USES: u64>(
-        self,
-        scene: &'static Scene<'static, Fixed, USES>,
-        camera: &'static Camera<Fixed>,
-        depth: u8,
-        output: Output,
-    ) -> Result<(), Fault> {
         let mut work = Work::<_, MAX_DEPTH>::new();
         let Frame { width, height, .. } = self.frame;
         let settings = Settings { depth, ..Settings::new(width, height) };
@@ -185,28 +171,9 @@ struct Rows<'a> {
 impl View<Fixed> for Rows<'_> {
     type Output = ();
 
-    /// The shot's parts one by one: the compiler then sees that they are always the same statics,
-    /// as they are in a firmware that draws but one scene, and reads them where they are used.
     #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) {
-        let Shot { scene, camera, depth, output } = shot;
-        self.draw(scene, camera, depth, output);
-    }
-}
-
-impl Rows<'_> {
-    /// Not inlined: either core has the tracer's memory on its stack. It is the scene's tracer for
-    /// all ways but that of embedded-graphics.
-    #[inline(never)]
-    fn draw<const USES: u64>(
-        self,
-        scene: &'static Scene<'static, Fixed, USES>,
-        camera: &'static Camera<Fixed>,
-        depth: u8,
-        output: Output,
-    ) {
         let Self { frame, source } = self;
-        let shot = Shot { scene, camera, depth, output };
         let mut work = Work::<_, MAX_DEPTH>::new();
         let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);
         while let Some(row) = source.next() {
