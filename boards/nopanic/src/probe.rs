@@ -15,7 +15,7 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::blob::{self, Blob, Content, Room};
+use whitted::blob::{self, Blob, Content, GroupContent, InstanceSpec, Room};
 use whitted::frame::Transfer;
 use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
@@ -333,13 +333,20 @@ macro_rules! arithmetic {
                     fans: any(&mut fans),
                     textures: any(&mut textures),
                     absorptions: any(&mut media),
+                    solids: any(&mut [Solid::NONE; 4]),
+                    operands: any(&mut [Operand::NONE; 8]),
+                    groups: any(&mut [Group::<$a>::NONE; 2]),
+                    instances: any(&mut [Instance::<$a>::NONE; 2]),
                 }))
                 .ok()?;
             any(scene.parts());
             let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
             let (surfaces, lamps) = ([texture; 2], [lamp; 2]);
+            let placed = InstanceSpec { group: any(0), transform: turned, material: any(Some(0)) };
             let content = Content {
                 shapes,
+                groups: any(&[GroupContent { shapes, tree: any(None) }]),
+                instances: any(&[placed]),
                 planes: any(&planes),
                 tree: Some((any(&words), cube, any(-16))),
                 materials: &specs,
@@ -348,6 +355,7 @@ macro_rules! arithmetic {
                 textures: any(&surfaces),
                 area_lights: any(&lamps),
                 cache: any(Some((filled.records(), 0.2))),
+                virtual_lights: any(Some((laid.lights(), any(VirtualLightsSpec::DEFAULT)))),
                 setting: *blob.setting(),
                 uses: any(7),
             };
