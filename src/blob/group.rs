@@ -199,7 +199,7 @@ for_each_arithmetic! {
             let region = Region::of_words(words);
             // What it takes of the operands is where they lie, not their number.
             let solid = Self::try_new(region, &operands, 0, count).ok()?;
-            Some((solid.from_operand(first), (operands, count)))
+            Some((solid.starting_at(first), (operands, count)))
         }
     }
 }

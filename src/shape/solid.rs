@@ -215,7 +215,7 @@ impl<A: Arithmetic> Solid<A> {
         Self { region: Region::NOTHING, bound: Cuboid::NONE, first_operand: 0, operand_count: 0 };
 
     /// The same with its operands elsewhere.
-    pub(crate) const fn from_operand(self, first: u32) -> Self {
+    pub(crate) const fn starting_at(self, first: u32) -> Self {
         Self { first_operand: first, ..self }
     }
 
