@@ -125,6 +125,11 @@ impl<A: Arithmetic> Pool<'_, '_, A> {
             }
             self.len += 1;
         }
+        // New ones lie behind and are asked one by one, until they are half as many as the others and
+        // a few: so putting them in order is done seldom.
+        if self.len.wrapping_sub(self.arranged) > self.arranged / 2 + 32 {
+            self.arrange();
+        }
     }
 }
 
@@ -180,12 +185,11 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
                 }
             }
             step /= 2;
-            pool.arrange();
         }
         if bounces > 1 {
             self.spread(&mut pool);
-            pool.arrange();
         }
+        pool.arrange();
         for _ in 1..bounces {
             self.again(&mut pool);
         }

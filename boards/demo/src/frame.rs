@@ -69,7 +69,7 @@ where
 
     #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
-        self.draw(&shot, &mut [])
+        self.draw_scene(&shot, &mut [])
     }
 }
 
@@ -87,7 +87,7 @@ where
 
     #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
-        self.0.draw(&shot, &mut [Sample::NONE; MAX_SAMPLES])
+        self.0.draw_scene(&shot, &mut [Sample::NONE; MAX_SAMPLES])
     }
 }
 
@@ -100,7 +100,7 @@ where
     /// # Panics
     /// Never: a job's size fits, and no scene is deeper than the memory.
     #[inline(always)]
-    fn draw<A: Arithmetic, const USES: u64>(
+    fn draw_scene<A: Arithmetic, const USES: u64>(
         mut self,
         shot: &Shot<A, USES>,
         samples: &mut [Sample<A>],
