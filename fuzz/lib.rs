@@ -68,7 +68,7 @@ macro_rules! look_into {
                     lights: &mut lights,
                     area_lights: &mut [AreaLight::<$a>::new(none); 4],
                     fans: &mut [FanCorner::NONE; 32],
-                    textures: &mut [Texture::<$a>::new(TextureSpec::of(Pattern::Checker)); 8],
+                    textures: &mut [Texture::<$a>::new(TextureSpec::of(Pattern::Checker)); 16],
                     absorptions: &mut [Absorption::<$a>::new([0.0; 3], [0.0; 3]); 4],
                     solids: &mut [Solid::NONE; 16],
                     operands: &mut [Operand::NONE; 64],
