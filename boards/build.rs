@@ -16,9 +16,10 @@ fn main() {
     println!("cargo::rustc-link-search={}", out.display());
     // Sections needn't start on a page: without this, gaps of up to 64 KiB appear in flash.
     println!("cargo::rustc-link-arg-bins=--nmagic");
-    // riscv-rt's script doesn't include the map by itself.
+    // riscv-rt's script doesn't include the map by itself. By its path, since a memory.x in the
+    // linker's working directory wins over any other.
     if riscv {
-        println!("cargo::rustc-link-arg-bins=-Tmemory.x");
+        println!("cargo::rustc-link-arg-bins=-T{}", map.display());
     }
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     if env::var_os("CARGO_FEATURE_RTT").is_some() {

@@ -7,11 +7,14 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{radiance, toward};
+use whitted::gather::{Gatherer, Gathering, GatheringSpec, Indirect, Record};
 use whitted::math::Fixed;
 use whitted::scene::{
-    Area, AreaLight, AreaLightSpec, FanCorner, Material, MaterialSpec, Parts, Rules, Scene, Shadow,
+    Area, AreaLight, AreaLightSpec, Background, Camera, FanCorner, Light, Material, MaterialSpec,
+    Parts, Pattern, Rules, Scene, Shadow, Texture, TextureSpec, Wrap,
 };
 use whitted::shape::{Disc, Plane, Polygon, Sphere};
+use whitted::trace::Work;
 
 type Point = [f64; 3];
 
@@ -167,9 +170,11 @@ for_all! {
     }
 
     discs: {
-        // A ring's middle lies nearer to the axis than its mean: 1.3 % at half a diameter.
-        for (h, a) in [(0.5, 0.0), (0.7, 0.0), (1.0, 0.0), (0.6, 0.7), (2.0, 0.0), (3.0, 2.0)] {
-            let tolerance = if h > 0.5 { 0.01 } else { 0.015 };
+        for (h, a) in [
+            (0.5, 0.0), (0.5, 0.2), (0.5, 0.5), (0.5, 1.0), (0.7, 0.0), (1.0, 0.0), (0.6, 0.7),
+            (2.0, 0.0), (3.0, 2.0),
+        ] {
+            let tolerance = 0.01;
             let disc = Area::Disc { center: [0.0, h, 0.0], normal: DOWN, radius: 0.5 };
             let exact = disc_factor(0.5, h, a);
             let x = [a * 0.6, 0.0, a * 0.8];
@@ -343,5 +348,153 @@ for_all! {
                 (with_bodies!(A, true, filtered, x), with_bodies!(A, false, filtered, x));
             assert!(dark < light * 0.999, "{dark} {light}");
         }
+    }
+}
+
+/// Seen from above, a floor of albedo 1 under a sky of radiance 1, with light gathered by 1024 rays
+/// and a light of radiance 1 before the sky: 1, if nothing counts twice.
+macro_rules! floor_under_a_sky {
+    ($a:ident, $spec:expr, $fan:expr, $discs:expr, $x:expr) => {{
+        let lights = [AreaLight::<$a>::new($spec)];
+        let planes = [Plane::<$a>::new(UP, 0.0, 0)];
+        let white = MaterialSpec { diffuse: [1.0; 3], ..MaterialSpec::BLACK };
+        let glow = MaterialSpec { emission: [1.0; 3], ..MaterialSpec::BLACK };
+        let materials = [Material::<$a>::new(white), Material::<$a>::new(glow)];
+        let scene = Scene::<$a>::checked(Parts {
+            planes: &planes,
+            discs: $discs,
+            materials: &materials,
+            area_lights: &lights,
+            light_corners: $fan,
+            background: Background::<$a>::uniform([1.0; 3]),
+            ..Parts::EMPTY
+        });
+        let x: Point = $x;
+        let eye = [x[0], 0.2, x[2]];
+        let camera = Camera::<$a>::look_at(eye, x, [1.0, 0.0, 0.0], 10.0);
+        let gathering = Gathering::<$a>::new(GatheringSpec {
+            rings: 16,
+            sectors: 64,
+            coarse: 1,
+            fine: 1,
+            ..GatheringSpec::DEFAULT
+        });
+        let mut work = Work::<$a, 4>::new();
+        let mut pool = [Record::<$a>::NONE; 1];
+        let cache = Gatherer::new(&scene, gathering, &mut work, &mut ())
+            .expect("settings")
+            .fill(&camera, (1, 1), &mut pool, &mut [])
+            .expect("memory");
+        assert_eq!(cache.records().len(), 1);
+        let lit = scene.with_indirect(Indirect::Cache(cache)).expect("uses");
+        radiance(&lit, 1, eye, DOWN)[1]
+    }};
+}
+
+for_all! {
+    // what a light stands for isn't gathered from behind it as well, whatever its form; from behind
+    // the light isn't there; one that is seen does the same by its body
+    a_sky_counts_once: {
+        const CORNERS: [Point; 5] = [
+            [0.6, 1.0, 0.0], [0.2, 1.0, 0.6], [-0.5, 1.0, 0.35], [-0.5, 1.0, -0.35],
+            [0.2, 1.0, -0.6],
+        ];
+        let fan: [FanCorner<A>; 4] = AreaLight::<A>::fan(&CORNERS);
+        let disc = Area::Disc { center: [0.0, 0.8, 0.0], normal: DOWN, radius: 0.7 };
+        let corners = [[-0.4, 0.9, -0.3], [0.7, 0.9, -0.2], [0.1, 0.6, 0.6]];
+        let areas = [
+            square(0.6),
+            Area::Rectangle { corner: [-0.5, 0.6, -0.5], u: [0.0, 0.0, 1.0], v: [1.0, 0.0, 0.0] },
+            Area::Triangle { corners },
+            Area::Polygon { corners: &CORNERS, first: 0 },
+            disc,
+            Area::Sphere { center: [0.2, 0.7, 0.0], radius: 0.4 },
+        ];
+        for area in areas {
+            for x in [[0.0; 3], [0.7, 0.0, -0.3], [-2.0, 0.0, 0.4]] {
+                let fan = if matches!(area, Area::Polygon { .. }) { &fan[..] } else { &[] };
+                let sum = floor_under_a_sky!(A, spec(area, SIXTY_FOUR), fan, &[], x);
+                assert!((sum - 1.0).abs() < 0.01, "{area:?} {x:?}: {sum}");
+            }
+        }
+        let discs = [Disc::<A>::new([0.0, 0.8, 0.0], DOWN, 0.7, 1)];
+        let seen = AreaLightSpec { body: Some(0), ..spec(disc, SIXTY_FOUR) };
+        let sum = floor_under_a_sky!(A, seen, &[], &discs, [0.1, 0.0, 0.0]);
+        assert!((sum - 1.0).abs() < 0.01, "{sum}");
+    }
+}
+
+for_all! {
+    // a mirror shows a light that can be seen: no highlight stands for it there. It does on what
+    // doesn't mirror, of a light that can't be seen, and of another light
+    no_highlight_of_what_is_mirrored: {
+        let disc = Area::Disc { center: [0.0, 1.0, 0.0], normal: DOWN, radius: 0.3 };
+        let shown = |specular: f64, reflection: f64, body: Option<u32>, other: bool| {
+            let polished = MaterialSpec {
+                diffuse: [0.25; 3],
+                specular: [specular; 3],
+                shininess: 10.0,
+                reflection: [reflection; 3],
+                ..MaterialSpec::BLACK
+            };
+            let glow = MaterialSpec { emission: [1.0; 3], ..MaterialSpec::BLACK };
+            let lights = [AreaLight::<A>::new(AreaLightSpec { body, ..spec(disc, SIXTY_FOUR) })];
+            let points = [Light::<A>::point([0.5, 1.0, 0.0], [0.5; 3])];
+            let planes = [Plane::<A>::new(UP, 0.0, 0)];
+            let discs = [Disc::<A>::new([0.0, 1.0, 0.0], DOWN, 0.3, 1)];
+            let materials = [Material::<A>::new(polished), Material::<A>::new(glow)];
+            let scene = Scene::<A>::checked(Parts {
+                planes: &planes,
+                discs: &discs,
+                materials: &materials,
+                lights: if other { &points } else { &[] },
+                area_lights: &lights,
+                ..Parts::EMPTY
+            });
+            // the rays of a depth of 1 mirror nothing
+            radiance(&scene, 1, [0.0, 0.5, 0.0], DOWN)[0]
+        };
+        for reflection in [0.0, 0.5] {
+            for body in [None, Some(0)] {
+                let mirrored = reflection > 0.0 && body.is_some();
+                let matt = shown(0.0, reflection, body, false);
+                let glossy = shown(0.5, reflection, body, false);
+                assert!(matt > 0.01);
+                assert_eq!(glossy == matt, mirrored, "{reflection} {body:?}: {glossy} {matt}");
+                // the point light's own highlight is there in any case
+                let of_point = shown(0.5, reflection, body, true) - shown(0.0, reflection, body, true);
+                assert!(of_point - (glossy - matt) > 0.01, "{reflection} {body:?}: {of_point}");
+            }
+        }
+    }
+
+    // what bends the normal bends the light of an area: the form factor is that of the bent normal
+    bumps: {
+        let height = 1.0;
+        let bump = TextureSpec { size: [2.0, 0.0, 0.0], height, ..TextureSpec::of(Pattern::Gradient { wrap: Wrap::Repeat }) };
+        // half a unit up for each unit along x
+        let bent = unit([-0.5, 1.0, 0.0]);
+        let white = MaterialSpec { diffuse: [1.0; 3], bump: Some(0), ..MaterialSpec::BLACK };
+        let mut most = 0.0f64;
+        for h in [0.6, 1.0, 2.5] {
+            let lights = [AreaLight::<A>::new(spec(square(h), SIXTY_FOUR))];
+            let planes = [Plane::<A>::new(UP, 0.0, 0)];
+            let (materials, textures) = ([Material::<A>::new(white)], [Texture::<A>::new(bump)]);
+            let scene = Scene::<A>::checked(Parts {
+                planes: &planes,
+                materials: &materials,
+                textures: &textures,
+                area_lights: &lights,
+                ..Parts::EMPTY
+            });
+            for x in [[0.3, 0.0, 0.0], [0.7, 0.0, 0.4], [1.2, 0.0, -0.3]] {
+                let exact = lambert(&square_corners(h), x, bent);
+                let got = radiance(&scene, 1, [x[0], h * 0.5, x[2]], DOWN)[0];
+                assert!((got / exact - 1.0).abs() < 0.01, "{h} {x:?}: {got} {exact}");
+                let flat = lambert(&square_corners(h), x, UP);
+                most = most.max((got / flat - 1.0).abs());
+            }
+        }
+        assert!(most > 0.3, "a flat floor is no other: {most}");
     }
 }

@@ -309,3 +309,49 @@ fn built_at_run_time() {
     assert_eq!(built, *fixed::every::TREE.built());
     assert_eq!(words[..built.words], *fixed::every::TREE.words());
 }
+
+/// What stood in a light's way is tested first, for the next point that it shadows: a shape, and no node
+/// of the tree.
+#[test]
+fn what_was_in_the_way_is_asked_first() {
+    fn test<A: Make>() {
+        let mut bodies = vec![(Body::Disc([0.0, 6.0, 0.0], [0.0, 1.0, 0.0], 2.0), 0)];
+        // what stands beside the shadow's way, in cells that it passes
+        for i in 0..60 {
+            let angle = f64::from(i) * 2.4;
+            let at = [3.5 * angle.cos(), 0.5 + f64::from(i) * 0.09, 3.5 * angle.sin()];
+            bodies.push((Body::Sphere(at, 0.2), 0));
+        }
+        bodies.push((Body::Disc([0.0, 0.0, 0.0], [0.0, 1.0, 0.0], 5.0), 0));
+        let mut shapes = Shapes::<A>::of(&bodies, LOG2_STEP);
+        shapes.grow(Limits::default());
+        let materials =
+            [A::material(&MaterialSpec { diffuse: [0.5; 3], ..MaterialSpec::BLACK }).unwrap()];
+        let light = A::light(&LightSpec::Point {
+            position: [0.0, 9.0, 0.0],
+            intensity: [1.0; 3],
+            falloff: Falloff::None,
+        });
+        let lights = [light.unwrap()];
+        let parts = Parts { materials: &materials, lights: &lights, ..shapes.parts() };
+        let scene = Scene::new(parts).expect("a scene");
+        let mut work = Work::<A, 2>::new();
+        let tracer = Tracer::new(&scene, 1);
+        let mut took = |x: f64| {
+            let way = ray::<A>([x, 0.5, 0.0], [0.0, -1.0, 0.0]);
+            let mut all = Counts::default();
+            assert!(tracer.radiance(way, &mut work, &mut all).iter().all(|&r| r == A::BLACK));
+            assert_eq!((all.shadow, all.shadow_hits), (1, 1));
+            let mut seen = Counts::default();
+            assert!(tracer.nearest(&way, &mut Work::<A, 2>::new(), &mut seen).is_some());
+            (all.nodes - seen.nodes, all.tests - seen.tests)
+        };
+        let (nodes, _) = took(0.1);
+        assert!(nodes > 0, "the first goes through the tree");
+        assert_eq!(took(0.15), (0, 1), "the next asks that one shape");
+        assert_eq!(took(-0.4), (0, 1));
+    }
+    test::<Fixed>();
+    test::<f32>();
+    test::<f64>();
+}

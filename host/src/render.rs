@@ -11,6 +11,7 @@ pub use deadline::{Shown, render_until};
 pub use live::{Colors, Next, Watcher, live, shown};
 pub use whitted::frame::{Progress, Sampling};
 use whitted::frame::{Renderer, Sample};
+use whitted::gather;
 use whitted::scene::{Camera, Scene};
 use whitted::tally::Counts;
 use whitted::trace::{Terms, Tracer, Work};
@@ -64,6 +65,8 @@ pub struct Rendered {
     pub counts: Counts,
     /// Those of them that made irradiance records or virtual lights, before the picture.
     pub made: Counts,
+    /// Whether the irradiance cache had no room for all the records that were wanted.
+    pub full: bool,
     /// How long it took.
     pub time: Duration,
 }
@@ -84,12 +87,21 @@ pub fn render<A: Construct>(
         let (mut pools, mut made) = (Pools::default(), Counts::default());
         let wanted = settings.indirect.filter(|_| settings.show.is_none());
         let lit = pools.light(baked, scene, &camera, settings.size, wanted, &mut made)?;
-        let mut rendered = render_scene(&lit, &camera, settings, terms, progress)?;
-        rendered.counts += made;
-        rendered.made = made;
-        rendered.time = start.elapsed();
-        Ok(rendered)
+        let rendered = render_scene(&lit, &camera, settings, terms, progress)?;
+        Ok(rendered.after(&lit, made, start))
     })?
+}
+
+impl Rendered {
+    /// With what it took to make the scene's indirect light before, from `start` on.
+    fn after<A: Construct>(mut self, scene: &Scene<'_, A>, made: Counts, start: Instant) -> Self {
+        self.counts += made;
+        self.made = made;
+        self.full =
+            matches!(&scene.parts().indirect, gather::Indirect::Cache(cache) if cache.is_full());
+        self.time = start.elapsed();
+        self
+    }
 }
 
 fn render_scene<A: Construct>(
@@ -111,7 +123,8 @@ fn render_scene<A: Construct>(
     } else {
         bands::paint(scene, camera, core, settings.threads, &mut picture, &mut progress)?
     };
-    Ok(Rendered { picture, counts, made: Counts::default(), time: start.elapsed() })
+    let made = Counts::default();
+    Ok(Rendered { picture, counts, made, full: false, time: start.elapsed() })
 }
 
 /// Calls `act` with a renderer and the memory that it needs.

@@ -71,6 +71,31 @@ fn a_deadline_leaves_what_the_screen_shows_then() {
     assert!(shown == plain);
 }
 
+/// The light that surfaces send each other is made first; a pool that was too small is said.
+#[test]
+fn a_deadline_has_indirect_light_too() {
+    let place = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(scene("box")).unwrap();
+    let render = |records: &str, more: &[&str]| {
+        let text = text.replace("rays = 192", &format!("rays = 12\nrecords = {records}"));
+        std::fs::write(place.path().join("x.toml"), text).unwrap();
+        let arguments = [&["render", "x.toml", "--size", "16x16", "-o", "x.png"], more].concat();
+        let output = whitted(place.path(), &arguments);
+        assert_eq!(errors(&output), "");
+        (said(&output), std::fs::read(place.path().join("x.png")).unwrap())
+    };
+    let (said, plain) = render("20000", &[]);
+    assert!(!said.contains("full"), "{said}");
+    let (said, shown) = render("20000", &["--deadline", "1000000"]);
+    assert!(said.contains("the picture is finished\n") && said.contains(" ambient\n"), "{said}");
+    assert!(shown == plain);
+    for more in [&[][..], &["--deadline", "1000000"]] {
+        let (said, shown) = render("20", more);
+        assert!(said.contains("the irradiance cache is full"), "{said}");
+        assert!(shown != plain);
+    }
+}
+
 #[test]
 fn a_scene_can_say_how_it_is_sampled() {
     let place = tempfile::tempdir().unwrap();

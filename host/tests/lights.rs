@@ -123,6 +123,27 @@ fn a_polygonal_lamp_takes_about_ten_times_the_rays_of_a_bulb() {
     assert!((8.0..14.0).contains(&times), "{point:?} {polygon:?} {times}");
 }
 
+/// A polygon of three corners is a triangle, shown too, whichever way round it is listed.
+#[test]
+fn three_corners_are_a_polygon_too() {
+    let lamp = |kind: &str, corners: &str| {
+        let text = format!(
+            "[[light]]\ntype = \"{kind}\"\nradiance = 8\ncorners = {corners}\nlook_at = [2, 0, 2]\n\
+             visible = true\n"
+        );
+        picture::<f64>(&document(&text), Size { width: 24, height: 18 }, Sampling::Center)
+    };
+    let one = lamp("triangle", "[[1.5, 2.5, 2], [2.5, 2.5, 2], [2, 2.5, 3]]");
+    for corners in [
+        "[[1.5, 2.5, 2], [2.5, 2.5, 2], [2, 2.5, 3]]",
+        "[[1.5, 2.5, 2], [2, 2.5, 3], [2.5, 2.5, 2]]",
+    ] {
+        let other = lamp("polygon", corners);
+        assert!(decibels(&one.picture, &other.picture) > 50.0);
+        assert_eq!(one.counts.primary_hits, other.counts.primary_hits);
+    }
+}
+
 fn decibels(a: &Picture, b: &Picture) -> f64 {
     let square = |(a, b): (&[u8; 3], &[u8; 3])| {
         (0..3).map(|i| (f64::from(a[i]) - f64::from(b[i])).powi(2)).sum::<f64>()

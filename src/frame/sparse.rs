@@ -22,26 +22,10 @@ use super::{Renderer, Sample};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::tally::Tally;
 
-/// The value `i`/`side` of the way from `a` to `b`, by halving: `side` is a power of two.
+/// The middle between two.
 #[inline(always)]
-fn between<A: Arithmetic>(
-    a: Rgb<A::Radiance>,
-    b: Rgb<A::Radiance>,
-    i: u16,
-    side: u16,
-) -> Rgb<A::Radiance> {
-    let (mut low, mut high, mut left, mut half) = (a, b, i, side >> 1);
-    while left != 0 && half != 0 {
-        let middle = rgb(&low, &high, |a, b| A::mean(A::gather(a, b), 2));
-        if left >= half {
-            low = middle;
-            left -= half;
-        } else {
-            high = middle;
-        }
-        half >>= 1;
-    }
-    low
+fn mean<A: Arithmetic>(a: &Rgb<A::Radiance>, b: &Rgb<A::Radiance>) -> Rgb<A::Radiance> {
+    rgb(a, b, |a, b| A::mean(A::gather(a, b), 2))
 }
 
 /// How the memory is laid out.
@@ -90,9 +74,12 @@ impl Layout {
 /// Pixels of a row that lie in one undivided block.
 #[derive(Clone, Copy, Debug)]
 struct Run<A: Arithmetic> {
-    /// At the block's left and right edge.
-    ends: [Rgb<A::Radiance>; 2],
-    side: u16,
+    /// At the block's left edge.
+    left: Rgb<A::Radiance>,
+    /// From a pixel to the next.
+    step: Rgb<A::Radiance>,
+    /// The block's first column.
+    start: u16,
     /// The column behind the last; 0 for none.
     end: u16,
 }
@@ -109,7 +96,7 @@ pub(super) struct Sparse<A: Arithmetic> {
 impl<A: Arithmetic> Sparse<A> {
     /// For pictures of this width; a side of 0 where sampling isn't sparse.
     pub(super) const fn new(width: u16, side: u8) -> Self {
-        let run = Run { ends: [[A::BLACK; 3]; 2], side: 0, end: 0 };
+        let run = Run { left: [A::BLACK; 3], step: [A::BLACK; 3], start: 0, end: 0 };
         let side = if side == 0 { 2 } else { side };
         Self { layout: Layout::new(width, side), run, middles: None }
     }
@@ -117,8 +104,8 @@ impl<A: Arithmetic> Sparse<A> {
     /// The pixel at x if it lies in the same undivided block as the one before.
     #[inline(always)]
     pub(super) fn goes_on(&self, x: u16, columns: (u16, u16)) -> Option<Rgb<A::Radiance>> {
-        let Run { ends: [left, right], side, end } = self.run;
-        (x < end && x != columns.0).then(|| between::<A>(left, right, x + side - end, side))
+        let Run { left, step, start, end } = &self.run;
+        (x < *end && x != columns.0).then(|| rgb(left, step, |a, b| A::steps(a, b, x - start)))
     }
 }
 
@@ -158,14 +145,17 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             divided = side == 2 || self.at(corner + layout.offset(side >> 1, side >> 1)).is_known();
         }
         if !divided {
+            let log2 = side.trailing_zeros();
             let edge = |right: u16| {
-                let top = corner + layout.offset(right, 0);
-                let bottom = corner + layout.offset(right, side);
-                between::<A>(self.at(top).radiance, self.at(bottom).radiance, down, side)
+                let top = self.at(corner + layout.offset(right, 0));
+                let bottom = self.at(corner + layout.offset(right, side));
+                rgb(&top.radiance, &bottom.radiance, |a, b| A::steps(a, A::step(a, b, log2), down))
             };
-            let ends = [edge(0), edge(side)];
-            self.sparse.run = Run { ends, side, end: x - right + side };
-            return between::<A>(ends[0], ends[1], right, side);
+            let left = edge(0);
+            let step = rgb(&left, &edge(side), |a, b| A::step(a, b, log2));
+            let start = x - right;
+            self.sparse.run = Run { left, step, start, end: start + side };
+            return rgb(&left, &step, |a, b| A::steps(a, b, right));
         }
         if right | down == 0 {
             return self.at(corner).radiance;
@@ -189,15 +179,15 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             if known {
                 return middle.radiance;
             }
-            let mean =
-                |a: usize, b: usize| between::<A>(self.at(a).radiance, self.at(b).radiance, 1, 2);
-            return between::<A>(mean(corner, below), mean(beside, below + 1), 1, 2);
+            let [a, b, c, d] =
+                [corner, below, beside, below + 1].map(|place| &self.at(place).radiance);
+            return mean::<A>(&mean::<A>(a, b), &mean::<A>(c, d));
         }
         let first = self.at(corner);
         if known && differ_in_color(&[*first, other, middle], threshold) {
             return self.trace(&self.view.row(y, 128), x, 128);
         }
-        between::<A>(first.radiance, other.radiance, 1, 2)
+        mean::<A>(&first.radiance, &other.radiance)
     }
 
     /// Begins a row of pixels between two columns.

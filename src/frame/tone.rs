@@ -39,20 +39,20 @@ impl Tone {
     /// The display value of a radiance in 1/65536, as 0 to 65535.
     #[inline(always)]
     pub fn value(&self, radiance_q16: i32) -> u16 {
-        let radiance = if radiance_q16 < 0 { 0 } else { radiance_q16 as u32 };
         let exposed = if self.exposure == 256 {
-            radiance
+            radiance_q16
         } else {
             // Anything above 256 is white at any exposure.
-            let radiance = if radiance > 1 << 24 { 1 << 24 } else { radiance };
-            (radiance >> 8)
-                .saturating_mul(u32::from(self.exposure))
-                .saturating_add((radiance & 255).wrapping_mul(u32::from(self.exposure)) >> 8)
+            let radiance = radiance_q16.clamp(0, 1 << 24) as u32;
+            let exposed = (radiance >> 8)
+                .wrapping_mul(u32::from(self.exposure))
+                .saturating_add((radiance & 255).wrapping_mul(u32::from(self.exposure)) >> 8);
+            if exposed > 65535 { 65535 } else { exposed as i32 }
         };
-        if exposed >= 65535 {
-            return 65535;
-        }
+        // One instruction where the core has one that saturates.
+        let exposed = exposed.clamp(0, 65535) as u32;
         match self.transfer {
+            Transfer::Srgb if exposed == 65535 => 65535,
             Transfer::Srgb => srgb(exposed),
             Transfer::Linear => exposed as u16,
         }

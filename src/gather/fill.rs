@@ -13,6 +13,7 @@
 
 use super::gradient::{Gradients, Seen};
 use super::hemisphere::{MAX_RINGS, raised, tangents};
+use super::order::arrange;
 use super::record::PackedRgb;
 use super::{Gathering, Indirect, IrradianceCache, Record};
 use crate::math::{Arithmetic, hash, rgb, spread, sqrt_u32};
@@ -99,13 +100,21 @@ struct Pool<'p, 's, A: Arithmetic> {
     records: &'p mut [Record<A>],
     drafts: &'s mut [Draft<A>],
     len: usize,
+    /// How many are in an order in which they are found quickly.
+    arranged: usize,
     full: bool,
 }
 
 impl<A: Arithmetic> Pool<'_, '_, A> {
     fn cache(&self, gathering: &Gathering<A>) -> IrradianceCache<'_, A> {
         let records = self.records.get(..self.len).unwrap_or(&[]);
-        IrradianceCache::of(records, gathering.sharpness, self.full)
+        IrradianceCache::of(records, self.arranged, gathering.sharpness, self.full)
+    }
+
+    /// Puts all in that order. Drafts stay in the order in which they were made, and with them the
+    /// directions of their rays.
+    fn arrange(&mut self) {
+        self.arranged = arrange(self.records.get_mut(..self.len).unwrap_or(&mut []));
     }
 
     fn push(&mut self, record: Record<A>, place: &Place<A>) {
@@ -115,6 +124,11 @@ impl<A: Arithmetic> Pool<'_, '_, A> {
                 *draft = Draft { record, origin: place.origin, leaving: place.leaving };
             }
             self.len += 1;
+        }
+        // New ones lie behind and are asked one by one, until they are half as many as the others and
+        // a few: so putting them in order is done seldom.
+        if self.len.wrapping_sub(self.arranged) > self.arranged / 2 + 32 {
+            self.arrange();
         }
     }
 }
@@ -159,7 +173,7 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if bounces > 1 && drafts.len() < pool.len() {
             return Err(FillError::Drafts { needed: pool.len() });
         }
-        let mut pool = Pool { records: pool, drafts, len: 0, full: false };
+        let mut pool = Pool { records: pool, drafts, len: 0, arranged: 0, full: false };
         let view = View::new(camera, width, height);
         let mut step = u16::from(self.gathering.coarse);
         let fine = u16::from(self.gathering.fine).max(1);
@@ -175,20 +189,25 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if bounces > 1 {
             self.spread(&mut pool);
         }
+        pool.arrange();
         for _ in 1..bounces {
             self.again(&mut pool);
         }
-        let Pool { records, len, full, .. } = pool;
+        let Pool { records, len, arranged, full, .. } = pool;
         let records = records.get(..len).unwrap_or(&[]);
-        Ok(IrradianceCache::of(records, self.gathering.sharpness, full))
+        Ok(IrradianceCache::of(records, arranged, self.gathering.sharpness, full))
     }
 
     /// Follows a ray to diffuse surfaces, and gives them records where there are none.
     fn look(&mut self, kind: RayKind, ray: Ray<A>, pool: &mut Pool<'_, '_, A>) {
+        // The camera sees past a light that isn't visible; light from surface to surface doesn't.
+        let tracer = match kind {
+            RayKind::Primary => Tracer::new(self.scene, 1),
+            _ => Tracer::gathering(self.scene, 1),
+        };
         let mut way = Some((kind, ray));
         for _ in 0..MAX_SPECULAR {
             let Some((kind, ray)) = way else { return };
-            let tracer = Tracer::new(self.scene, 1);
             let Some(site) = tracer.site(kind, ray, self.work, self.tally) else { return };
             let (position, normal) = (site.position, site.surface.normal);
             if site.is_diffuse() && !pool.cache(&self.gathering).covers(&position, &normal) {
@@ -242,6 +261,7 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         for (to, from) in pool.records.iter_mut().zip(&*pool.drafts).take(pool.len) {
             *to = from.record;
         }
+        pool.arrange();
     }
 
     fn seed(&self, index: usize) -> u32 {

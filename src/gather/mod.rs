@@ -11,6 +11,7 @@ mod fill;
 mod gradient;
 mod halton;
 mod hemisphere;
+mod order;
 mod record;
 mod settings;
 #[cfg(test)]

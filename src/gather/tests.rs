@@ -112,6 +112,63 @@ integrating_sphere!(integrating_sphere_in_fixed, Fixed);
 integrating_sphere!(integrating_sphere_in_f32, f32);
 integrating_sphere!(integrating_sphere_in_f64, f64);
 
+/// Whatever order records lie in, a point hears the same to the bit from all of them, one by one, as
+/// from those alone that may reach it; also where none does. Filled ones lie so that few are asked.
+macro_rules! found_by_halving {
+    ($name:ident, $a:ty) => {
+        #[test]
+        fn $name() {
+            in_a_sphere!($a, scene, camera);
+            for bounces in [1, 2] {
+                let spec = GatheringSpec {
+                    error: 0.2,
+                    nearest: 0.05,
+                    farthest: 2.0,
+                    bounces,
+                    ..GatheringSpec::DEFAULT
+                };
+                let mut work = Work::<$a, 4>::new();
+                let mut pool = vec![Record::<$a>::NONE; 300];
+                let mut drafts = vec![Draft::<$a>::NONE; 300];
+                let gathering = Gathering::<$a>::new(spec);
+                let cache = Gatherer::new(&scene, gathering, &mut work, &mut ())
+                    .expect("settings")
+                    .fill(&camera, (80, 60), &mut pool, &mut drafts)
+                    .expect("memory");
+                let records = cache.records();
+                assert_eq!(cache.arranged(), records.len());
+                // made of them again, as from flash, it is as it was
+                let again = IrradianceCache::<$a>::new(records, spec.error);
+                assert_eq!(again.arranged(), records.len());
+                let reversed: std::vec::Vec<_> = records.iter().rev().copied().collect();
+                assert_eq!(IrradianceCache::<$a>::new(&reversed, spec.error).arranged(), 0);
+                let one_by_one =
+                    IrradianceCache::of(records, 0, gathering.sharpness, cache.is_full());
+                let part = |bits: u32| f64::from(bits & 0x3ff) / 512.0 - 1.0;
+                for i in 0..4000u32 {
+                    let bits = crate::math::hash(i);
+                    let v = [part(bits), part(bits >> 10), part(bits >> 20)];
+                    let square = v.iter().map(|x| x * x).sum::<f64>();
+                    if square < 1e-3 {
+                        continue;
+                    }
+                    // on the wall, and anywhere
+                    let size = if i % 2 == 0 { square.sqrt() } else { 0.7 };
+                    let p = v.map(|x| <$a>::length_q16((x / size * 65536.0) as i32));
+                    let normal = v.map(|x| <$a>::fraction((-x / square.sqrt() * 65536.0) as i32));
+                    let said = cache.irradiance(p, normal);
+                    assert_eq!(said, one_by_one.irradiance(p, normal), "{v:?}");
+                    assert_eq!(said, again.irradiance(p, normal), "{v:?}");
+                }
+            }
+        }
+    };
+}
+
+found_by_halving!(found_by_halving_in_fixed, Fixed);
+found_by_halving!(found_by_halving_in_f32, f32);
+found_by_halving!(found_by_halving_in_f64, f64);
+
 /// A floor before a lit wall, under a sky: how the gradients of a record say the irradiance changes,
 /// and how it does.
 #[test]

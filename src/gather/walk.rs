@@ -67,7 +67,7 @@ impl<'p, A: Arithmetic> VirtualLights<'p, A> {
         let paths = pool.len().checked_div(bounces).unwrap_or(0) / parts * parts;
         let parts = scene.parts();
         let emitters = (parts.lights.len() + parts.area_lights.len()) as u32;
-        let tracer = Tracer::new(scene, 1);
+        let tracer = Tracer::gathering(scene, 1);
         for (number, path) in (0u32..).zip(pool.chunks_mut(bounces.max(1)).take(paths)) {
             let Some(index) = number.checked_div(emitters) else { break };
             let emitter = number.wrapping_sub(index.wrapping_mul(emitters));

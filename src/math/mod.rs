@@ -107,7 +107,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// The reciprocal of a length.
     type Inverse: Copy;
     /// A light's strength, before falloff.
-    type Intensity: Copy + Debug + Send + Sync;
+    type Intensity: Stored + Debug + Send + Sync;
     /// Phong's exponent.
     type Exponent: Copy + Debug + Send + Sync;
     /// The quotient of two indices of refraction.
@@ -332,6 +332,12 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating, for radiances that aren't negative.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
+    /// The step that leads from `a` to `b` in 2^`log2` of them, for radiances that aren't negative.
+    /// `log2` is at most 4. Rounded towards 0.
+    fn step(a: Self::Radiance, b: Self::Radiance, log2: u32) -> Self::Radiance;
+    /// `a` and `n` steps, fewer than [`step`](Self::step) was made for: it lies between the two that
+    /// the step leads from and to.
+    fn steps(a: Self::Radiance, step: Self::Radiance, n: u16) -> Self::Radiance;
     /// The mean of `count` radiances that sum to `sum`.
     fn mean(sum: Self::Radiance, count: u16) -> Self::Radiance;
     /// The radiance as a number of 1/65536, saturating: what the tone curve reads.

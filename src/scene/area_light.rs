@@ -9,7 +9,8 @@
 //! that a grid on the square is a grid of equal areas on the light: a parallelogram by its edges;
 //! a triangle by Heitz' map ("A low-distortion map between triangle and square", 2019); a polygon
 //! as a fan of triangles beside each other along one axis, each as wide as its part of the area; a
-//! disc by Shirley and Chiu's concentric map (1997).
+//! disc by Shirley and Chiu's concentric map (1997), where a ray to a cell's middle goes to the mean
+//! radius of the cell.
 //!
 //! **The sphere** of radius R around c, seen from the distance d, looks exactly like the disc that
 //! its circle of tangency bounds: around c − (R²/d)·w, w being the direction from x to c, across w,

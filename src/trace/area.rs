@@ -1,6 +1,7 @@
 //! Direct light from areas: shadow rays to points of equal sub-areas. (The formulas are in
 //! `scene/area_light.rs`.)
 
+mod front;
 mod place;
 
 use super::direct::Shading;
@@ -11,6 +12,7 @@ use crate::scene::uses::{self, has};
 use crate::scene::{AreaLight, Material, Scene};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
+pub(super) use front::front_before;
 use place::Seen;
 pub(crate) use place::point_of_light;
 
@@ -125,7 +127,11 @@ pub(super) fn area<A: Arithmetic, T: Tally, const USES: u64>(
             let s = within(i, step_s, bits & 0xffff);
             let t = within(j, step_t, bits >> 16);
             // In front of the light by what positions may be wrong, so that the ray ends there.
-            let y = A::leave(&seen.point(s, t), &seen.normal, seen.distance);
+            let place = match seed {
+                None => seen.middle(light, s, t, [step_s, step_t]),
+                Some(_) => seen.point(s, t),
+            };
+            let y = A::leave(&place, &seen.normal, seen.distance);
             let (direction, distance, inverse) = A::normalize(&sub(&y, &ray.origin));
             let cosine = A::cosine(normal, &direction);
             let facing = -A::cosine(&seen.normal, &direction);

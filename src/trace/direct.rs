@@ -91,18 +91,24 @@ fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
         tally.shadowed(number, at.depth);
         return None;
     };
-    let mut factor = factor::<A, USES>(
-        &scene.parts.rules,
-        at.material,
-        at.highlights.then_some(at.mirror),
-        cosine,
-        &direction,
-    );
+    let above = grey::<A, USES>(at.weight);
+    // The first product is one for all colours where rays are grey.
+    let part = |cosine: A::Weight, coefficient: &Rgb<A::Weight>| {
+        rgb(&above.map(|w| A::weight(w, cosine)), coefficient, A::weight)
+    };
+    let mut factor = part(cosine, &at.material.diffuse);
+    if at.highlights
+        && let Some(highlight) =
+            highlight::<A, USES>(&scene.parts.rules, at.material, at.mirror, cosine, &direction)
+    {
+        factor = rgb(&factor, &part(highlight, &at.material.specular), |a, b| a + b);
+    }
     if has(USES, uses::COLORED_LIGHTS) {
         factor = rgb(&factor, &light.color, A::weight);
     }
-    let factor = rgb(&factor, &grey::<A, USES>(at.weight), A::weight);
-    let factor = if opaque { factor } else { rgb(&factor, &share, A::weight) };
+    if !opaque {
+        factor = rgb(&factor, &share, A::weight);
+    }
     let radiance = factor.map(|f| A::dim(irradiance, f));
     tally.term::<A>(Term::Direct { light: number }, &radiance);
     Some(radiance)
@@ -118,21 +124,31 @@ pub(super) fn factor<A: Arithmetic, const USES: u64>(
     cosine: A::Weight,
     direction: &[A::Unit; 3],
 ) -> Rgb<A::Weight> {
-    let diffuse = material.diffuse;
-    let factor = diffuse.map(|k| A::weight(k, cosine));
-    if has(USES, uses::HIGHLIGHTS)
-        && material.shines
-        && let Some(mirror) = mirror
-    {
-        // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
-        let lobe = A::cosine(mirror, direction);
-        if lobe > A::NO_WEIGHT {
-            let mut highlight = A::power(lobe, &material.shininess);
-            if has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine {
-                highlight = A::weight(highlight, cosine);
-            }
-            return rgb(&factor, &material.specular, |f, k| f + A::weight(k, highlight));
-        }
+    let factor = material.diffuse.map(|k| A::weight(k, cosine));
+    match mirror.and_then(|m| highlight::<A, USES>(rules, material, m, cosine, direction)) {
+        Some(highlight) => rgb(&factor, &material.specular, |f, k| f + A::weight(k, highlight)),
+        None => factor,
     }
-    factor
+}
+
+/// Phong's highlight, (R·L)ⁿ, or times the cosine, as the rules have it; `None` on the far side.
+#[inline(always)]
+fn highlight<A: Arithmetic, const USES: u64>(
+    rules: &Rules<A>,
+    material: &Material<A>,
+    mirror: &[A::Unit; 3],
+    cosine: A::Weight,
+    direction: &[A::Unit; 3],
+) -> Option<A::Weight> {
+    if !has(USES, uses::HIGHLIGHTS) || !material.shines {
+        return None;
+    }
+    // R_l·V, R_l being the mirror direction of L, is the same as L·R_v
+    let lobe = A::cosine(mirror, direction);
+    if lobe <= A::NO_WEIGHT {
+        return None;
+    }
+    let highlight = A::power(lobe, &material.shininess);
+    let with_cosine = has(USES, uses::HIGHLIGHT_COSINE) && rules.highlight_cosine;
+    Some(if with_cosine { A::weight(highlight, cosine) } else { highlight })
 }

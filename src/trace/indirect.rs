@@ -1,5 +1,6 @@
 //! Diffuse interreflection at a point.
 
+use super::area::front_before;
 use super::visible::visible;
 use super::work::{NO_LIGHT, Scratch};
 use crate::gather::{Indirect, VirtualLights};
@@ -67,6 +68,10 @@ fn virtual_lights<A: Arithmetic, T: Tally, const USES: u64>(
         }
         let irradiance = A::falloff(&light.intensity, &inverse);
         ray.direction = direction;
+        // What lies behind an area light doesn't add to what the light sends itself.
+        if front_before(scene, &ray, distance).is_some() {
+            continue;
+        }
         tally.ray(RayKind::Shadow, spot.depth, &ray, &[A::FULL; 3]);
         // Not quite to the light, which lies on a surface.
         let end = distance - A::scale(distance, A::fraction(32));

@@ -4,6 +4,7 @@
 //! down the tree, and sends at most two rays. One is followed at once, the other waits on a
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
+use super::area::front_before;
 use super::detail::{self, bumped, painted};
 use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
@@ -59,7 +60,7 @@ pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     pub(super) scene: &'a Scene<'a, A, USES>,
     depth: u8,
     /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
-    gathering: bool,
+    pub(super) gathering: bool,
     key: u32,
     terms: Terms,
     /// Whose turn it is among virtual lights.
@@ -163,6 +164,16 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         has(USES, uses::IRRADIANCE_CACHE) && self.gathering
     }
 
+    /// Where a ray ends that gathers irradiance and finds the front of an area light that nobody
+    /// sees before anything else.
+    #[inline(always)]
+    fn ends_at_light(&self, ray: &Ray<A>, found: &Option<Hit<A>>) -> Option<A::Length> {
+        if !self.gathers() {
+            return None;
+        }
+        front_before(self.scene, ray, found.map_or(A::FAR, |hit| hit.distance))
+    }
+
     /// The background's radiance in a direction, if it counts.
     #[inline(always)]
     fn background(&self, direction: &[A::Unit; 3]) -> Rgb<A::Radiance> {
@@ -195,6 +206,9 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let eye = if may_be_few::<USES>() && seen { Some(&work.sights.eye) } else { None };
         let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
         if found.is_none() {
+            if let Some(distance) = self.ends_at_light(&path.ray, &found) {
+                return (sum, distance);
+            }
             let radiance = self.background(&path.ray.direction);
             tally.term::<A>(Term::Background, &radiance);
             return (radiance, first);
@@ -203,21 +217,29 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             if uses::has_random(USES) {
                 key = key.wrapping_add(RAY_STEP);
             }
-            let next = match found {
-                None => {
-                    let background = self.background(&path.ray.direction);
-                    let weight = grey::<A, USES>(&path.weight);
-                    let radiance = rgb(&background, &weight, A::dim);
-                    tally.term::<A>(Term::Background, &radiance);
-                    sum = rgb(&sum, &radiance, A::gather);
-                    None
+            let next = if let Some(distance) = self.ends_at_light(&path.ray, &found) {
+                if kind == RayKind::Ambient {
+                    first = distance;
                 }
-                Some(hit) => {
-                    tally.hit::<A>(kind, hit.shape, hit.distance);
-                    if has(USES, uses::IRRADIANCE_CACHE) && kind == RayKind::Ambient {
-                        first = hit.distance;
+                None
+            } else {
+                match found {
+                    None => {
+                        let background = self.background(&path.ray.direction);
+                        let weight = grey::<A, USES>(&path.weight);
+                        let radiance = rgb(&background, &weight, A::dim);
+                        tally.term::<A>(Term::Background, &radiance);
+                        sum = rgb(&sum, &radiance, A::gather);
+                        None
                     }
-                    self.shade(&mut path, &hit, (key, seen), &mut sum, work, &mut waiting, tally)
+                    Some(hit) => {
+                        tally.hit::<A>(kind, hit.shape, hit.distance);
+                        if has(USES, uses::IRRADIANCE_CACHE) && kind == RayKind::Ambient {
+                            first = hit.distance;
+                        }
+                        let key = (key, seen);
+                        self.shade(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
+                    }
                 }
             };
             kind = match next {

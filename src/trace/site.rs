@@ -1,5 +1,6 @@
 //! Places where diffuse light is wanted, for what fills irradiance caches and lays virtual lights.
 
+use super::area::front_before;
 use super::detail::painted;
 use super::meet::surface_at;
 use super::{Tracer, Work};
@@ -28,7 +29,7 @@ impl<A: Arithmetic> Site<A> {
 }
 
 impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
-    /// The point that a ray finds.
+    /// The point that a ray finds; one that gathers ends at the front of an invisible area light.
     #[inline(never)]
     pub(crate) fn site<T: Tally, const MAX_DEPTH: usize>(
         &self,
@@ -39,6 +40,9 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
     ) -> Option<Site<A>> {
         tally.ray(kind, 1, &ray, &[A::FULL; 3]);
         let hit = self.nearest(&ray, work, tally)?;
+        if self.gathering && front_before(self.scene, &ray, hit.distance).is_some() {
+            return None;
+        }
         tally.hit::<A>(kind, hit.shape, hit.distance);
         let mut position = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };

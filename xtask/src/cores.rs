@@ -29,6 +29,38 @@ pub(crate) struct Frame {
 
 /// Runs an image from its reset vector until the frame is traced.
 pub(crate) fn trace(image: &Path, job: &Job) -> Result<Frame, String> {
+    let mut chip = boot(image, job)?;
+    let start = wait(&mut chip, true, job, |_| {})?;
+    let end = wait(&mut chip, false, job, |_| {})?;
+    let cycles = [end[0] - start[0], end[1] - start[1]];
+    let (result, _) = elf::symbol(image, "TRACED")?;
+    Ok(Frame { cycles, sum: chip.peek(result as u32) })
+}
+
+/// The same on the first core alone, telling each instruction of the frame: its address, and the
+/// cycles it took.
+pub(crate) fn follow(
+    image: &Path,
+    job: &Job,
+    mut each: impl FnMut(u32, u64),
+) -> Result<(), String> {
+    let mut chip = boot(image, job)?;
+    // One instruction at a time.
+    chip.step_quantum = 1;
+    let before = wait(&mut chip, true, job, |_| {})?[0];
+    let (mut address, mut before) = (chip.core(0).regs.pc(), before);
+    wait(&mut chip, false, job, |chip| {
+        let now = chip.core_cycles(0);
+        if now != before {
+            each(address, now - before);
+            (address, before) = (chip.core(0).regs.pc(), now);
+        }
+    })?;
+    Ok(())
+}
+
+/// The chip with an image that is to trace a job, at its reset vector.
+fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
     let rom = image.with_extension("rom");
     let python = setup::python()?;
     shell::run(Command::new(python).arg("-B").arg(boards().join("pico/emulate/rom.py")).arg(&rom))?;
@@ -44,24 +76,29 @@ pub(crate) fn trace(image: &Path, job: &Job) -> Result<Frame, String> {
     let start = (order - FLASH) as usize;
     let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
     flash[start..start + text.len()].copy_from_slice(text.as_bytes());
-    let (result, _) = elf::symbol(image, "TRACED")?;
 
     let mut chip = Emulator::new(Config::default());
     chip.load_bootrom(&rom);
     chip.load_flash(&flash);
     chip.reset();
     chip.direct_boot_from_flash(0x100);
-    let mut wait = |level: bool| {
-        for _ in 0..PATIENCE {
-            chip.step().map_err(|error| error.to_string())?;
-            if chip.gpio_read(MARK) == level {
-                return Ok([0, 1].map(|core| chip.core_cycles(core)));
-            }
+    Ok(chip)
+}
+
+/// Runs until the mark is at a level, with a look at the chip after each step; the cycles of both
+/// cores until then.
+fn wait(
+    chip: &mut Emulator,
+    level: bool,
+    job: &Job,
+    mut look: impl FnMut(&Emulator),
+) -> Result<[u64; 2], String> {
+    for _ in 0..PATIENCE {
+        chip.step().map_err(|error| error.to_string())?;
+        look(chip);
+        if chip.gpio_read(MARK) == level {
+            return Ok([0, 1].map(|core| chip.core_cycles(core)));
         }
-        Err(format!("{job}: no frame"))
-    };
-    let start = wait(true)?;
-    let end = wait(false)?;
-    let cycles = [end[0] - start[0], end[1] - start[1]];
-    Ok(Frame { cycles, sum: chip.peek(result as u32) })
+    }
+    Err(format!("{job}: no frame"))
 }

@@ -139,8 +139,27 @@ pub(crate) fn symbol(path: &Path, name: &str) -> Result<(u64, u64), String> {
     })
 }
 
+/// Where a program's functions begin.
+pub(crate) fn functions(path: &Path) -> Result<Vec<u64>, String> {
+    with(path, |elf| {
+        let functions = elf.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text);
+        // On Arm the lowest bit tells the instruction set.
+        Ok(functions.map(|function| function.address() & !1).collect())
+    })
+}
+
+/// Whether it is a program for RISC-V.
+pub(crate) fn is_riscv(path: &Path) -> Result<bool, String> {
+    with(path, |elf| Ok(elf.architecture() == object::Architecture::Riscv32))
+}
+
 fn name(raw: Result<&str, object::Error>) -> String {
-    format!("{:#}", rustc_demangle::demangle(raw.unwrap_or("?")))
+    demangled(raw.unwrap_or("?"))
+}
+
+/// A symbol as it was written.
+pub(crate) fn demangled(symbol: &str) -> String {
+    format!("{:#}", rustc_demangle::demangle(symbol))
 }
 
 fn with<T>(

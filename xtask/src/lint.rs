@@ -62,11 +62,16 @@ pub(crate) fn check(report: &mut Report) {
     // A workspace of its own.
     let pico2 = boards.join("pico2");
     step("format, pico2", &pico2, "fmt --all --check", false);
-    for features in ["rtt", "rtt,fixed"] {
+    for (target, features) in [
+        ("thumbv8m.main-none-eabihf", "rtt,st7789-240x240"),
+        ("thumbv8m.main-none-eabihf", "one-core,fixed,st7735s-160x80"),
+        ("riscv32imac-unknown-none-elf", "rtt,st7789-240x240"),
+    ] {
         let words = format!(
-            "clippy -q --locked --target-dir ../target --no-default-features --features {features}"
+            "clippy -q --locked --target-dir ../target --target {target} --no-default-features \
+             --features {features}"
         );
-        step(&format!("clippy, pico2, {features}"), &pico2, &words, true);
+        step(&format!("clippy, pico2, {target}, {features}"), &pico2, &words, true);
     }
     // What people copy: its own workspace, and its own lock file, which must hold. It shares what
     // the boards have built.

@@ -170,6 +170,11 @@ pub(crate) struct Log {
 }
 
 impl Log {
+    /// What a firmware wrote.
+    pub(crate) fn new(text: &str) -> Self {
+        Self { lines: text.lines().map(|line| line.trim().to_owned()).collect() }
+    }
+
     /// Whether a line is in it, word for word.
     pub(crate) fn has(&self, line: &str) -> bool {
         self.lines.iter().any(|said| said == line)
@@ -271,14 +276,8 @@ impl Machine {
         !matches!(self.carries, Carries::Few)
     }
 
-    /// Runs a firmware on jobs. One that shows a picture has it dumped to `dump`.
-    pub(crate) fn run<J: Display>(
-        &self,
-        firmware: &Path,
-        jobs: &[J],
-        dump: &Path,
-        patience: Duration,
-    ) -> Result<Log, String> {
+    /// The emulator, to be run with a firmware on jobs.
+    pub(crate) fn emulate<J: Display>(&self, firmware: &Path, jobs: &[J]) -> Command {
         let mut qemu = Command::new(self.emulator.program);
         qemu.args(self.emulator.args);
         qemu.args(["-machine", self.machine, "-icount", "shift=0", "-display", "none"]);
@@ -288,6 +287,18 @@ impl Machine {
             semihosting.push_str(&format!(",arg={job}"));
         }
         qemu.args(["-semihosting-config", &semihosting, "-kernel"]).arg(firmware);
+        qemu
+    }
+
+    /// Runs a firmware on jobs. One that shows a picture has it dumped to `dump`.
+    pub(crate) fn run<J: Display>(
+        &self,
+        firmware: &Path,
+        jobs: &[J],
+        dump: &Path,
+        patience: Duration,
+    ) -> Result<Log, String> {
+        let mut qemu = self.emulate(firmware, jobs);
         qemu.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit());
         let dir = dump.parent().unwrap_or(Path::new("."));
         qemu.current_dir(dir);
@@ -300,7 +311,7 @@ impl Machine {
 }
 
 /// Ends the emulator when nobody waits for it any more.
-struct Guard(Child);
+pub(crate) struct Guard(pub(crate) Child);
 
 impl Drop for Guard {
     fn drop(&mut self) {

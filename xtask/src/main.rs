@@ -16,6 +16,7 @@ mod report;
 mod setup;
 mod shell;
 mod stack;
+mod stages;
 mod stm32;
 
 use std::process::ExitCode;
@@ -28,6 +29,9 @@ cargo xtask test [--only GROUP]…           set up and run every check, or thos
                                            lint, host, nopanic, boards, pico
 cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
                                            --check compares with it instead
+cargo xtask bench --stages [SCENE|JOB]… [--machine M] [--flame FILE.svg] [--folded FILE]
+                                           what each stage of a frame costs; --flame draws the
+                                           calls, --folded writes them as text
 cargo xtask emulate pico [OPTION]…         run the Pico's image and save what its display shows;
                                            --help names the options
 cargo xtask stack                          the stack of a frame at each depth, on every emulated
@@ -44,6 +48,9 @@ fn main() -> ExitCode {
     let done = match args.as_slice() {
         ["setup"] => setup::run().and_then(|()| setup::python().map(drop)),
         ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
+        ["bench", "--stages", options @ ..] => {
+            stages::Options::read(options).and_then(|o| stages::run(&o))
+        }
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
         ["emulate", "pico", options @ ..] => pico::run(options),
         ["stack"] => stack::run(),

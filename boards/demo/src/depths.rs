@@ -64,8 +64,7 @@ struct Frame<T, const DEPTH: usize>(T);
 impl<A: Arithmetic, T: Tally + Copy, const DEPTH: usize> View<A> for Frame<T, DEPTH> {
     type Output = (Checksum, T);
 
-    /// Not inlined, so that its stack frame is its own.
-    #[inline(never)]
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
         let mut work = Work::<A, DEPTH>::new();
         let settings = Settings { depth: DEPTH as u8, ..Settings::new(SIZE.0, SIZE.1) };

@@ -1,8 +1,7 @@
 //! The frame loop: one row after another, through one row buffer.
 
-use whitted::frame::{Output, Renderer, Rgb888, Sample, Sampling, Settings};
+use whitted::frame::{Renderer, Rgb888, Sample, Sampling, Settings};
 use whitted::math::{Arithmetic, Fixed};
-use whitted::scene::{Camera, Scene};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::Work;
 
@@ -43,9 +42,9 @@ fn run<T: Tally + Copy + Default>(
     let frame = Frame { job, watch, show, tally: T::default() };
     match (job.arith, job.sampling) {
         (ArithName::Fixed, Sampling::Center) => Fixed::shot(job.scene, frame),
-        (ArithName::Fixed, _) => Fixed::sampled(frame),
+        (ArithName::Fixed, _) => Fixed::sampled(Sampled(frame)),
         (ArithName::F32, sampling) if sampling != Sampling::Center && sampled(ArithName::F32) => {
-            f32::sampled(frame)
+            f32::sampled(Sampled(frame))
         }
         (ArithName::F32, _) => f32::shot(job.scene, frame),
     }
@@ -68,12 +67,27 @@ where
 {
     type Output = (Checksum, T);
 
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
-        if self.job.sampling == Sampling::Center {
-            self.draw(shot, &mut [])
-        } else {
-            self.sampled(shot)
-        }
+        self.draw_scene(&shot, &mut [])
+    }
+}
+
+/// A frame to draw with room for samples.
+struct Sampled<'a, W, S, T>(Frame<'a, W, S, T>);
+
+impl<A, W, S, T> View<A> for Sampled<'_, W, S, T>
+where
+    A: Arithmetic,
+    W: Watch,
+    S: FnMut(&[Rgb888]),
+    T: Tally + Copy,
+{
+    type Output = (Checksum, T);
+
+    #[inline(always)]
+    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
+        self.0.draw_scene(&shot, &mut [Sample::NONE; MAX_SAMPLES])
     }
 }
 
@@ -83,40 +97,19 @@ where
     S: FnMut(&[Rgb888]),
     T: Tally + Copy,
 {
-    /// With room for samples.
-    #[inline(never)]
-    fn sampled<A: Arithmetic, const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
-        self.draw(shot, &mut [Sample::NONE; MAX_SAMPLES])
-    }
-
-    /// The shot's parts one by one: the compiler then sees that they are always the same statics,
-    /// as they are in a firmware that draws but one scene, and reads them where they are used.
-    #[inline(always)]
-    fn draw<A: Arithmetic, const USES: u64>(
-        self,
-        shot: Shot<A, USES>,
-        samples: &mut [Sample<A>],
-    ) -> (Checksum, T) {
-        self.draw_scene(shot.scene, shot.camera, shot.depth, shot.output, samples)
-    }
-
-    /// Not inlined, so that its stack frame, with the row and the tracer's memory, is its own.
-    ///
     /// # Panics
     /// Never: a job's size fits, and no scene is deeper than the memory.
-    #[inline(never)]
+    #[inline(always)]
     fn draw_scene<A: Arithmetic, const USES: u64>(
         mut self,
-        scene: &Scene<'_, A, USES>,
-        camera: &Camera<A>,
-        depth: u8,
-        output: Output,
+        shot: &Shot<A, USES>,
         samples: &mut [Sample<A>],
     ) -> (Checksum, T) {
         let job = self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();
         let mut settings = Settings::new(job.width, job.height);
-        (settings.depth, settings.sampling) = (depth, job.sampling);
+        (settings.depth, settings.sampling) = (shot.depth, job.sampling);
+        let (scene, camera) = (shot.scene, shot.camera);
         let mut renderer =
             Renderer::with_tally(scene, camera, settings, &mut work, samples, self.tally)
                 .expect("a job fits");
@@ -126,7 +119,7 @@ where
         let row = row.get_mut(..usize::from(job.width)).unwrap_or_default();
         for y in 0..job.height {
             self.watch.before();
-            renderer.line(y, &output, row);
+            renderer.line(y, &shot.output, row);
             self.watch.after();
             checksum.add(row.iter().flat_map(|&Rgb888(rgb)| rgb));
             (self.show)(row);

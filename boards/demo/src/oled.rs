@@ -32,8 +32,7 @@ struct On<'a, D>(&'a mut D);
 impl<D: DrawTarget<Color = Gray4>> View<Fixed> for On<'_, D> {
     type Output = Result<(), D::Error>;
 
-    /// Not inlined, so that the stack it takes is its own.
-    #[inline(never)]
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), D::Error> {
         let mut work = Work::<Fixed, MAX_DEPTH>::new();
         let settings =

@@ -55,7 +55,7 @@ struct Rows;
 impl<A: Arithmetic> View<A> for Rows {
     type Output = u32;
 
-    #[inline(never)]
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> u32 {
         let (width, height) = size();
         let mut work = Work::<A, MAX_DEPTH>::new();

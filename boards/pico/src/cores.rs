@@ -1,12 +1,10 @@
 //! The second core: it traces rows of the frame that the first is drawing.
 
-use whitted_demo::deal::Claim;
-
 use crate::chip::hal::sio::SioFifo;
 use crate::chip::hal::{Sio, pac};
 use crate::draw;
 use crate::order::Frame;
-use crate::rows;
+use crate::rows::{self, Empty, Row, Source};
 
 /// The second core, seen from the first.
 pub(crate) struct Second {
@@ -61,12 +59,25 @@ fn serve() {
     let mut fifo = Sio::new(unsafe { pac::Peripherals::steal() }.SIO).fifo;
     loop {
         let words = [(); Frame::WORDS].map(|()| fifo.read_blocking());
-        draw::trace(
-            Frame::from_words(words),
-            |line, row| {
-                while rows::work(line, &mut *row) != Claim::Over {}
-            },
-        );
+        let frame = Frame::from_words(words);
+        draw::trace(frame, &mut Leftovers { line: frame.line() });
         fifo.write_blocking(1);
+    }
+}
+
+/// What the second core traces: every row that the first hasn't taken.
+struct Leftovers {
+    line: usize,
+}
+
+impl Source for Leftovers {
+    fn next(&mut self) -> Option<Row> {
+        loop {
+            match rows::claim(self.line) {
+                Ok(row) => return Some(row),
+                Err(Empty::Now) => {}
+                Err(Empty::Forever) => return None,
+            }
+        }
     }
 }

@@ -7,9 +7,9 @@ use embedded_graphics::pixelcolor;
 use embedded_graphics::prelude::*;
 use embedded_hal::digital::OutputPin;
 use whitted::Picture;
-use whitted::frame::{Output, Renderer, Rgb565};
+use whitted::frame::{Renderer, Rgb565, Settings};
+use whitted::tally::Tally;
 use whitted::trace::Work;
-use whitted_demo::deal::Claim;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::rgb565;
 use whitted_demo::scenes::{Shot, Shots, View};
@@ -21,7 +21,7 @@ use crate::cores::Second;
 use crate::link::Fault;
 use crate::log;
 use crate::order::{Frame, Order, Way};
-use crate::rows::{self, Band};
+use crate::rows::{self, Band, Row, Source};
 
 /// A frame is drawn so many times until it is whole; then it is another scene's turn.
 const TRIES: usize = 5;
@@ -77,7 +77,7 @@ fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(),
                 // SAFETY: only the pixels of the window that has just been opened are sent, so the
                 // driver goes on knowing the controller's settings.
                 let link = unsafe { display.dcs() };
-                trace(frame, |line, row| sent = link.send_rows(line, row));
+                sent = link.send_rows(frame.line(), |source| trace(frame, source));
             });
             sent
         }
@@ -89,6 +89,13 @@ fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(),
     }
 }
 
+/// Counts nothing. What counts by another type is another tracer, so that this way has one of its
+/// own: of a tracer that is called from two places the compiler makes a function that reads the scene
+/// from memory, which takes a third more cycles by either way.
+struct Apart;
+
+impl Tally for Apart {}
+
 /// Drawing with embedded-graphics.
 struct Graphics<'a> {
     display: &'a mut Display,
@@ -98,14 +105,16 @@ struct Graphics<'a> {
 impl View<Number> for Graphics<'_> {
     type Output = Result<(), Fault>;
 
-    #[inline(never)]
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<Number, USES>) -> Result<(), Fault> {
+        let Shot { scene, camera, depth, output } = shot;
         let mut work = Work::<_, MAX_DEPTH>::new();
         let Frame { width, height, .. } = self.frame;
-        let renderer = rgb565::renderer(&shot, width, height, &mut work);
-        let picture = Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), USES>::from_renderer(
-            renderer,
-            shot.output,
+        let settings = Settings { depth, ..Settings::new(width, height) };
+        let renderer = Renderer::with_tally(scene, camera, settings, &mut work, &mut [], Apart)
+            .expect("a picture with sides");
+        let picture = Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, Apart, USES>::from_renderer(
+            renderer, output,
         );
         Image::new(&picture, Point::zero()).draw(self.display)
     }
@@ -121,52 +130,54 @@ static TRACED: AtomicU32 = AtomicU32::new(0);
 #[inline(never)]
 fn keep(second: &mut Second, frame: Frame) {
     rows::begin(frame.height);
-    let mut sum = 0;
-    second.help(frame, || {
-        trace(frame, |line, row| {
-            while !rows::is_over() {
-                if let Some(band) = rows::take_band() {
-                    sum = Band::of(&band, line).read(|bytes| rgb565::sum(sum, bytes));
-                    rows::free(&band);
-                }
-                let (Claim::Row(_) | Claim::Wait | Claim::Over) = rows::work(line, &mut *row);
+    let mut unseen = Unseen { line: frame.line(), sum: 0 };
+    second.help(frame, || trace(frame, &mut unseen));
+    TRACED.store(unseen.sum, Ordering::Relaxed);
+}
+
+/// A frame whose bands are summed up instead of sent.
+struct Unseen {
+    /// Bytes in a row.
+    line: usize,
+    sum: u32,
+}
+
+impl Source for Unseen {
+    fn next(&mut self) -> Option<Row> {
+        while !rows::is_over() {
+            if let Some(band) = rows::take_band() {
+                self.sum = Band::of(&band, self.line).read(|bytes| rgb565::sum(self.sum, bytes));
+                rows::free(&band);
             }
-        });
-    });
-    TRACED.store(sum, Ordering::Relaxed);
-}
-
-/// Makes a tracer of a frame's rows, and has `share` give it rows of so many bytes.
-pub(crate) fn trace(frame: Frame, share: impl FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))) {
-    Number::shot(frame.scene, Rows { frame, share });
-}
-
-/// Tracing a frame's rows.
-struct Rows<S> {
-    frame: Frame,
-    share: S,
-}
-
-impl<S: FnOnce(usize, &mut dyn FnMut(u16, &mut [u8]))> View<Number> for Rows<S> {
-    type Output = ();
-
-    /// Not inlined: either core has the tracer's memory on its stack.
-    #[inline(never)]
-    fn view<const USES: u64>(self, shot: Shot<Number, USES>) {
-        let Self { frame, share } = self;
-        let mut work = Work::<_, MAX_DEPTH>::new();
-        let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);
-        share(frame.line(), &mut |y, bytes| row(&mut renderer, y, &shot.output, bytes));
+            if let Ok(row) = rows::claim(self.line) {
+                return Some(row);
+            }
+        }
+        None
     }
 }
 
-/// Traces a row: one copy of a scene's tracer for all ways but that of embedded-graphics.
-#[inline(never)]
-fn row<const USES: u64>(
-    renderer: &mut Renderer<'_, Number, MAX_DEPTH, (), USES>,
-    y: u16,
-    output: &Output,
-    bytes: &mut [u8],
-) {
-    renderer.band::<Rgb565>(y, output, bytes);
+/// Traces rows of a frame until the source has no more.
+pub(crate) fn trace(frame: Frame, source: &mut dyn Source) {
+    Number::shot(frame.scene, Rows { frame, source });
+}
+
+/// Tracing a frame's rows.
+struct Rows<'a> {
+    frame: Frame,
+    source: &'a mut dyn Source,
+}
+
+impl View<Number> for Rows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn view<const USES: u64>(self, shot: Shot<Number, USES>) {
+        let Self { frame, source } = self;
+        let mut work = Work::<_, MAX_DEPTH>::new();
+        let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);
+        while let Some(row) = source.next() {
+            renderer.band::<Rgb565>(row.y, &shot.output, row.bytes);
+        }
+    }
 }

@@ -6,6 +6,7 @@
 //! an error the display is let go of and the channel is free, so that the next frame begins anew.
 
 use core::convert::Infallible;
+use core::ops::Range;
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal_nb::spi::FullDuplex;
@@ -20,7 +21,7 @@ use crate::chip::hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown};
 use crate::chip::hal::pac::{self, SPI1};
 use crate::chip::hal::spi::{Enabled, Spi};
 use crate::chip::hal::timer::Instant;
-use crate::rows::{self, Band};
+use crate::rows::{self, Band, Row, Source};
 
 /// SPI1 with its clock and its data line.
 type Wires =
@@ -180,34 +181,16 @@ impl Link {
     }
 
     /// Sends the rows of the frame that is dealt, of `line` bytes each, in bands as they are
-    /// finished, and traces rows in the meantime. After an error no more rows are dealt.
+    /// finished; in the meantime `trace` takes rows from what it is given. After an error no more rows are dealt.
     pub(crate) fn send_rows(
         &mut self,
         line: usize,
-        row: &mut dyn FnMut(u16, &mut [u8]),
+        trace: impl FnOnce(&mut dyn Source),
     ) -> Result<(), Fault> {
-        let mut sent = self.begin();
-        // The band that is being sent.
-        let mut sending = None;
-        while !rows::is_over() {
-            if self.sender.as_ref().is_some_and(|sender| sender.is_over(self.timer))
-                && let Some(band) = sending.take()
-            {
-                sent = sent.and(self.collect());
-                rows::free(&band);
-            }
-            if sent.is_err() {
-                rows::stop();
-            }
-            if sending.is_none() {
-                sending = rows::take_band();
-                if let (Some(band), Ok(())) = (&sending, sent) {
-                    let (_, before) = self.exchange(Band::of(band, line));
-                    sent = before;
-                }
-            }
-            rows::work(line, &mut *row);
-        }
+        let sent = self.begin();
+        let mut sending = Sending { link: self, line, band: None, sent };
+        trace(&mut sending);
+        let sent = sending.sent;
         self.end(sent)
     }
 
@@ -252,6 +235,50 @@ impl Link {
         self.write(&[command])?;
         self.data_command.set_high()?;
         self.write(args)
+    }
+}
+
+/// A frame whose bands are sent while its rows are traced.
+struct Sending<'a> {
+    link: &'a mut Link,
+    /// Bytes in a row.
+    line: usize,
+    /// The rows that are on their way.
+    band: Option<Range<u16>>,
+    sent: Result<(), Fault>,
+}
+
+impl Sending<'_> {
+    /// Frees the band that has been sent, and sends the next that is traced.
+    fn go_on(&mut self) {
+        if self.link.sender.as_ref().is_some_and(|sender| sender.is_over(self.link.timer))
+            && let Some(band) = self.band.take()
+        {
+            self.sent = self.sent.and(self.link.collect());
+            rows::free(&band);
+        }
+        if self.sent.is_err() {
+            rows::stop();
+        }
+        if self.band.is_none() {
+            self.band = rows::take_band();
+            if let (Some(band), Ok(())) = (&self.band, self.sent) {
+                let (_, before) = self.link.exchange(Band::of(band, self.line));
+                self.sent = before;
+            }
+        }
+    }
+}
+
+impl Source for Sending<'_> {
+    fn next(&mut self) -> Option<Row> {
+        while !rows::is_over() {
+            self.go_on();
+            if let Ok(row) = rows::claim(self.line) {
+                return Some(row);
+            }
+        }
+        None
     }
 }
 

@@ -61,20 +61,53 @@ pub(crate) fn free(band: &Range<u16>) {
     deal(|deal| deal.free(band));
 }
 
-/// Gives the next row, of `line` bytes, to `trace`, if there is one.
-pub(crate) fn work(line: usize, trace: impl FnOnce(u16, &mut [u8])) -> Claim {
-    let claim = deal(Deal::claim);
-    if let Claim::Row(y) = claim {
-        let place = usize::from(Deal::<BAND_ROWS>::place(y)) * line.min(LINE);
-        // SAFETY: the place lies in the ring, and the deal has given this row to nobody else until
-        // it is finished, nor its place to the sender until then.
-        let bytes = unsafe {
-            core::slice::from_raw_parts_mut(RING.0.get().cast::<u8>().add(place), line.min(LINE))
-        };
-        trace(y, bytes);
-        deal(|deal| deal.finish(y));
+/// A row that this core has to trace. It counts as traced when it is dropped.
+pub(crate) struct Row {
+    /// Which, from the top.
+    pub(crate) y: u16,
+    /// Its pixels.
+    pub(crate) bytes: &'static mut [u8],
+}
+
+impl Drop for Row {
+    fn drop(&mut self) {
+        deal(|deal| deal.finish(self.y));
     }
-    claim
+}
+
+/// Where a core gets rows from.
+pub(crate) trait Source {
+    /// The next one, as soon as there is one; the one before has been dropped.
+    fn next(&mut self) -> Option<Row>;
+}
+
+/// Takes the next row, of `line` bytes, unless there is none now.
+pub(crate) fn claim(line: usize) -> Result<Row, Empty> {
+    match deal(Deal::claim) {
+        Claim::Row(y) => {
+            let place = usize::from(Deal::<BAND_ROWS>::place(y)) * line.min(LINE);
+            // SAFETY: the place lies in the ring, and the deal has given this row to nobody else
+            // until it is finished, nor its place to the sender until then.
+            let bytes = unsafe {
+                core::slice::from_raw_parts_mut(
+                    RING.0.get().cast::<u8>().add(place),
+                    line.min(LINE),
+                )
+            };
+            Ok(Row { y, bytes })
+        }
+        Claim::Wait => Err(Empty::Now),
+        Claim::Over => Err(Empty::Forever),
+    }
+}
+
+/// Why there is no row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Empty {
+    /// A band has to be sent first.
+    Now,
+    /// All have been taken.
+    Forever,
 }
 
 /// A band's bytes on their way, or half of the ring as a buffer.

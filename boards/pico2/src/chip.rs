@@ -4,6 +4,9 @@
 use embedded_hal::delay::DelayNs;
 use hal::block::ImageDef;
 use hal::timer::CopyableTimer0;
+// Its critical sections are linked.
+#[cfg(target_arch = "riscv32")]
+use riscv as _;
 use whitted_demo::job::ArithName;
 
 pub(crate) use rp235x_hal as hal;

@@ -23,6 +23,7 @@ mod rows;
 #[path = "../../pico/src/run.rs"]
 mod run;
 
+/// From reset on.
 #[rp235x_hal::entry]
 fn main() -> ! {
     run::run()

@@ -34,8 +34,7 @@ struct Rows<'a> {
 impl<A: Arithmetic> View<A> for Rows<'_> {
     type Output = Sent;
 
-    /// Not inlined, so that the stack it takes is its own.
-    #[inline(never)]
+    #[inline(always)]
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> Sent {
         let Job { width, height, .. } = *self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();

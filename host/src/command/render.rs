@@ -140,6 +140,10 @@ fn paint(
     print(format_args!("{}\n", out.display()))
 }
 
+/// What there is to say of a cache that the scene gave too few records.
+const FULL: &str = "the irradiance cache is full: where no record reaches, the nearest stands in \
+                    (`records` in [indirect])\n";
+
 /// A picture, what made it, how long it took to make the scene, and what else there is to say.
 struct Painted {
     rendered: Rendered,
@@ -176,7 +180,8 @@ fn paint_in<A: Construct>(
             (shown.rendered, note)
         }
     };
-    Ok(Painted { rendered, arithmetic: A::NAME, build, note })
+    let full = if rendered.full { FULL } else { "" };
+    Ok(Painted { rendered, arithmetic: A::NAME, build, note: note + full })
 }
 
 /// The picture, as large as the terminal lets it be with room for the text below.

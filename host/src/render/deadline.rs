@@ -4,11 +4,13 @@ use std::time::Instant;
 
 use whitted::frame::{Output, Passes, Progress, Rgb888};
 use whitted::scene::{Camera, Scene};
+use whitted::tally::Counts;
 
 use super::{Rendered, Settings, with_renderer};
 use crate::bake::{Baked, Construct};
 use crate::document::Size;
 use crate::error::{Flaw, Problem};
+use crate::indirect::Pools;
 use crate::picture::Picture;
 
 /// What the screen shows at the deadline.
@@ -22,7 +24,8 @@ pub struct Shown {
     pub side: u8,
 }
 
-/// Renders from coarse to fine, from blocks of `side` pixels, until so many rays have been sent.
+/// Renders from coarse to fine, from blocks of `side` pixels, until so many rays have been sent. Those
+/// that make irradiance records or virtual lights before don't count for that.
 ///
 /// # Errors
 /// A size, depth or side that is out of range, or a camera that the arithmetic can't hold.
@@ -36,7 +39,14 @@ pub fn render_until<A: Construct>(
     let passes =
         Passes::new(side).map_err(|error| Problem::Settings(error.to_string()).anywhere())?;
     let core = settings.for_core(baked.document().rules.terms);
-    baked.with_scene(|scene| draw(scene, &camera, settings.size, core, passes, rays))?
+    baked.with_scene(|scene| {
+        let start = Instant::now();
+        let (mut pools, mut made) = (Pools::default(), Counts::default());
+        let lit =
+            pools.light(baked, scene, &camera, settings.size, settings.indirect, &mut made)?;
+        let shown = draw(&lit, &camera, settings.size, core, passes, rays)?;
+        Ok(Shown { rendered: shown.rendered.after(&lit, made, start), ..shown })
+    })?
 }
 
 fn draw<A: Construct>(
@@ -62,11 +72,7 @@ fn draw<A: Construct>(
         );
         (progress, *renderer.tally())
     })?;
-    let rendered = Rendered {
-        picture,
-        counts,
-        made: whitted::tally::Counts::default(),
-        time: start.elapsed(),
-    };
+    let rendered =
+        Rendered { picture, counts, made: Counts::default(), full: false, time: start.elapsed() };
     Ok(Shown { rendered, progress, side: passes.side() })
 }

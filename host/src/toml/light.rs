@@ -121,6 +121,10 @@ fn area(table: &Table<'_>, kind: Kind) -> Result<Area, Flaw> {
     let point = |key| table.need(key)?.point(key);
     let polygon = |corners: &[Point], what: &str| match split(corners) {
         Ok(Parts::Convex(kept)) => Ok(kept.into_iter().map(|i| corners[i]).collect()),
+        // Three corners, or as many that aren't on a line with their neighbours.
+        Ok(Parts::Triangles(all)) if all.len() == 1 => {
+            Ok(all.into_iter().flatten().map(|i| corners[i]).collect::<Vec<Point>>())
+        }
         Ok(Parts::Triangles(_)) => {
             let why = "it is concave: a light must be convex";
             Err(Problem::degenerate(what, why).at(table.line))
@@ -163,8 +167,11 @@ fn area(table: &Table<'_>, kind: Kind) -> Result<Area, Flaw> {
             radius: table.need("radius")?.positive("radius")?,
         },
         _ => {
-            let corners = table.corners()?;
-            Area::Polygon { corners: polygon(&corners, "polygon light")? }
+            let corners = polygon(&table.corners()?, "polygon light")?;
+            match <[Point; 3]>::try_from(corners.as_slice()) {
+                Ok(corners) => Area::Triangle { corners },
+                Err(_) => Area::Polygon { corners },
+            }
         }
     })
 }

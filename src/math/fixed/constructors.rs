@@ -21,6 +21,15 @@ pub(crate) const fn length(x: f64) -> Option<I16F16> {
     Some(I16F16::from_bits(round(x * 65536.0) as i32))
 }
 
+/// The least and the largest length.
+pub(crate) const LEAST: I16F16 = I16F16::MIN;
+pub(crate) const MOST: I16F16 = I16F16::MAX;
+
+/// Whether a length is less than another.
+pub(crate) const fn below(a: I16F16, b: I16F16) -> bool {
+    a.to_bits() < b.to_bits()
+}
+
 pub(crate) const fn unit(x: f64) -> Option<Unit> {
     if !within(x, -1.0001, 1.0001) {
         return None;

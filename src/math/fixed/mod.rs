@@ -59,7 +59,8 @@ pub struct FixedInverse {
 }
 
 /// `mantissa_q15 · 2^exponent`, mantissa in ½ to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct FixedIntensity {
     mantissa_q15: u16,
     exponent: i16,
@@ -117,6 +118,9 @@ stored_numbers!(FixedBarycentric { second, third, second_down, third_down, shift
     if |f| f.second_down <= 16 && f.third_down <= 16 && f.shift <= 16
         && f.second.iter().chain(&f.third).all(|x| x.unsigned_abs() <= 16384));
 stored_numbers!(FixedOutline { half, shift } if |o| o.shift <= 16 && o.half.iter().all(|&x| x <= 16385));
+// 10¹² is less than 2⁴⁰; the smallest that isn't null is more than 2⁻³⁰.
+stored_numbers!(FixedIntensity { mantissa_q15, exponent }
+    if |x| x.mantissa_q15 <= 1 << 15 && x.exponent.unsigned_abs() <= 40);
 stored_numbers!(FixedEdge { normal, offset }
     if |e| e.normal.iter().all(|x| x.unsigned_abs() <= 16384));
 
@@ -498,6 +502,19 @@ impl Arithmetic for Fixed {
     fn gather(a: I16F16, b: I16F16) -> I16F16 {
         let sum = a.to_bits().wrapping_add(b.to_bits());
         I16F16::from_bits(if sum < 0 { i32::MAX } else { sum })
+    }
+
+    #[inline(always)]
+    fn step(a: I16F16, b: I16F16, log2: u32) -> I16F16 {
+        let rise = b.to_bits().wrapping_sub(a.to_bits());
+        // A shift rounds down; what is added to negative numbers makes it round towards 0.
+        let bias = (rise >> 31) & (1i32.wrapping_shl(log2)).wrapping_sub(1);
+        I16F16::from_bits(rise.wrapping_add(bias).wrapping_shr(log2))
+    }
+
+    #[inline(always)]
+    fn steps(a: I16F16, step: I16F16, n: u16) -> I16F16 {
+        I16F16::from_bits(a.to_bits().wrapping_add(step.to_bits().wrapping_mul(i32::from(n))))
     }
 
     #[inline(always)]

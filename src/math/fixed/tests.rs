@@ -175,6 +175,21 @@ proptest! {
     }
 
     #[test]
+    fn steps_stay_between(a in 0.0..1000.0f64, b in 0.0..1000.0f64, log2 in 0u32..=4) {
+        let (a, b) = (I16F16::from_num(a), I16F16::from_num(b));
+        let step = <Fixed as Arithmetic>::step(a, b, log2);
+        prop_assert_eq!(Fixed::steps(a, step, 0), a);
+        for n in 0..=1u16 << log2 {
+            let between = Fixed::steps(a, step, n);
+            prop_assert!((a.min(b)..=a.max(b)).contains(&between));
+            let part = f64::from(n) / f64::from(1u32 << log2);
+            let exact = a.to_num::<f64>() * (1.0 - part) + b.to_num::<f64>() * part;
+            // each step may be a bit short
+            prop_assert!((between.to_num::<f64>() - exact).abs() * 65536.0 <= f64::from(n));
+        }
+    }
+
+    #[test]
     fn dimming(r in 0.0..1000.0f64, w in 0.0..15.9f64) {
         let (r, w) = (make::radiance(r).unwrap(), make::weight(w).unwrap());
         let exact = r.to_num::<f64>() * w.to_num::<f64>();

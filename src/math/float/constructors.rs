@@ -14,6 +14,15 @@ macro_rules! constructors {
                 within(x, -1e8, 1e8)
             }
 
+            /// The least and the largest length.
+            pub(crate) const LEAST: $f = $f::NEG_INFINITY;
+            pub(crate) const MOST: $f = $f::INFINITY;
+
+            /// Whether a length is less than another.
+            pub(crate) const fn below(a: $f, b: $f) -> bool {
+                a < b
+            }
+
             pub(crate) const fn unit(x: f64) -> Option<$f> {
                 within(x, -1.0001, 1.0001)
             }

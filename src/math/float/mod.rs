@@ -461,6 +461,16 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn step(a: $f, b: $f, log2: u32) -> $f {
+                (b - a) * (1.0 / (1u32.wrapping_shl(log2)) as $f)
+            }
+
+            #[inline(always)]
+            fn steps(a: $f, step: $f, n: u16) -> $f {
+                a + step * $f::from(n)
+            }
+
+            #[inline(always)]
             fn mean(sum: $f, count: u16) -> $f {
                 sum * (1.0 / count as $f)
             }

@@ -119,25 +119,35 @@ impl<'l, A: Arithmetic> Seen<'l, A> {
         A::dim(irradiance, A::weight(cosine, at_least(self.cosine)))
     }
 
+    /// The light's point for the middle (s, t) of a cell of the unit square, whose sides are `step`.
+    pub(super) fn middle(
+        &self,
+        light: &AreaLight<A>,
+        s: u32,
+        t: u32,
+        step: [u32; 2],
+    ) -> [A::Length; 3] {
+        match (&light.form, &self.area) {
+            (Form::Disc { .. }, Image::Disc(axes)) => self.at(axes, disc_middle(s, t, step)),
+            _ => self.point(s, t),
+        }
+    }
+
     /// The light's point for a place (s, t) of the unit square.
     pub(super) fn point(&self, s: u32, t: u32) -> [A::Length; 3] {
-        let (edges, x, y) = match &self.area {
-            Image::Rectangle(edges) => (**edges, s as i32, t as i32),
-            Image::Triangle(edges) => {
-                let (x, y) = triangle(s, t);
-                (**edges, x, y)
-            }
-            Image::Disc(axes) => {
-                let (x, y) = disc(s, t);
-                (*axes, x, y)
-            }
-            Image::Polygon(fan) => {
-                let Some((edges, s)) = fan_at(fan, s) else { return self.origin };
-                let (x, y) = triangle(s, t);
-                (edges, x, y)
-            }
-        };
-        let [a, b] = edges;
+        match &self.area {
+            Image::Rectangle(edges) => self.at(edges, (s as i32, t as i32)),
+            Image::Triangle(edges) => self.at(edges, triangle(s, t)),
+            Image::Disc(axes) => self.at(axes, disc(s, t)),
+            Image::Polygon(fan) => match fan_at(fan, s) {
+                Some((edges, s)) => self.at(&edges, triangle(s, t)),
+                None => self.origin,
+            },
+        }
+    }
+
+    /// The point so far along both edges, in Q16.
+    fn at(&self, [a, b]: &[[A::Length; 3]; 2], (x, y): (i32, i32)) -> [A::Length; 3] {
         let (x, y) = (A::fraction(x), A::fraction(y));
         let p = add(&self.origin, &a.map(|a| A::scale(a, x)));
         add(&p, &b.map(|b| A::scale(b, y)))
@@ -225,12 +235,35 @@ fn fan_at<A: Arithmetic>(fan: &[FanCorner<A>], s: u32) -> Option<([[A::Length; 3
 /// From the unit square to the unit disc (Shirley and Chiu 1997): the square's rings become the
 /// disc's, and along a ring the angle goes evenly, φ = π/4·(b/a) from the nearer axis.
 fn disc(s: u32, t: u32) -> (i32, i32) {
+    let (far, near, steep) = on_ring(s, t);
+    along_ring(far, far, near, steep)
+}
+
+/// The same for the middle of a cell with the sides `step`, at the cell's mean radius: a cell between
+/// the radii m − d and m + d has its mean at m + d²/3m. At m the light would seem too near to its axis:
+/// with 64 cells its irradiance, half its diameter away, is 1.3 % too large, and here 0.2 % too small.
+fn disc_middle(s: u32, t: u32, step: [u32; 2]) -> (i32, i32) {
+    let (far, near, steep) = on_ring(s, t);
+    // d is as long on the disc's radius as a whole step on the square's side, at most ½.
+    let wide = (if steep { step[1] } else { step[0] }) as i32;
+    let out = wide.wrapping_mul(wide).checked_div(far.wrapping_mul(3)).unwrap_or(0);
+    along_ring(far.wrapping_add(out), far, near, steep)
+}
+
+/// A place of the square as that on one of its rings: the larger coordinate from the middle, the
+/// smaller one, and whether the larger one is t's.
+fn on_ring(s: u32, t: u32) -> (i32, i32, bool) {
     let (a, b) = ((s << 1) as i32 - 65536, (t << 1) as i32 - 65536);
     let steep = a.unsigned_abs() < b.unsigned_abs();
     let (far, near) = if steep { (b, a) } else { (a, b) };
+    (far, near, steep)
+}
+
+/// The point of the disc at the radius `radius` on the ring of `far`.
+fn along_ring(radius: i32, far: i32, near: i32, steep: bool) -> (i32, i32) {
     let q_q14 = (near << 14).checked_div(far).unwrap_or(0);
     let (sin, cos) = sin_cos_eighth(q_q14);
-    let along = |part: i32| (far >> 1).wrapping_mul(part >> 1) >> 14;
+    let along = |part: i32| (radius >> 1).wrapping_mul(part >> 1) >> 14;
     if steep { (along(sin), along(cos)) } else { (along(cos), along(sin)) }
 }
 
@@ -320,4 +353,79 @@ mod tests {
             }
         }
     }
+
+    /// n = ⌈A·max L_e·cos θ_y/(r²·e)⌉ within the bounds, r no less than half the diameter: by f64,
+    /// but for quotients so near to a whole number that rounding may take them over it.
+    macro_rules! counts {
+        ($name:ident, $a:ty, $wrong:expr) => {
+            #[test]
+            fn $name() {
+                use crate::scene::{Area, AreaLightSpec};
+                type A = $a;
+                const CORNERS: [[f64; 3]; 4] =
+                    [[0.6, 2.0, 0.0], [0.2, 2.0, 0.6], [-0.6, 2.0, 0.0], [-0.2, 2.0, -0.6]];
+                let fan: [FanCorner<A>; 3] = AreaLight::<A>::fan(&CORNERS);
+                let (u, v) = ([1.5, 0.0, 0.0], [0.0, 0.0, 2.0]);
+                let down = [0.0, -1.0, 0.0];
+                let triangle = [[0.0, 2.0, 0.0], [1.2, 2.0, 0.0], [0.0, 2.0, 0.9]];
+                // the area, its middle, its area and half its diameter
+                let middle = [0.0, 2.0, 0.0];
+                let forms = [
+                    (Area::Rectangle { corner: [-0.75, 2.0, -1.0], u, v }, middle, 3.0, 1.25),
+                    (Area::Triangle { corners: triangle }, [0.4, 2.0, 0.3], 0.54, 0.75),
+                    (Area::Polygon { corners: &CORNERS, first: 0 }, middle, 0.72, 0.4f64.sqrt()),
+                    (
+                        Area::Disc { center: middle, normal: down, radius: 0.5 },
+                        middle,
+                        core::f64::consts::PI / 4.0,
+                        0.5,
+                    ),
+                    (
+                        Area::Sphere { center: middle, radius: 0.5 },
+                        middle,
+                        core::f64::consts::PI / 4.0,
+                        0.5,
+                    ),
+                ];
+                let mut met = [0; 3];
+                for (area, center, size, half) in forms {
+                    let flat = !matches!(area, Area::Sphere { .. });
+                    for (radiance, error) in [([0.2, 1.0, 0.5], 0.005), ([30.0, 2.0, 1.0], 0.08)] {
+                        let samples = [4, 100];
+                        let spec = AreaLightSpec { area, radiance, error, samples, body: None };
+                        let light = AreaLight::<A>::new(spec);
+                        let brightest = radiance.into_iter().fold(0.0, f64::max);
+                        for i in 0..1000u32 {
+                            let bits = crate::math::hash(i);
+                            let part = |shift: u32| f64::from(bits >> shift & 1023) / 1023.0;
+                            let height = 0.01 + 5.0 * part(0) * part(0);
+                            let (a, b) = (part(10) * 8.0 - 4.0, part(20) * 8.0 - 4.0);
+                            let x = [center[0] + a, 2.0 - height, center[2] + b];
+                            let at = x.map(|x| A::length_q16((x * 65536.0).round() as i32));
+                            let Some(seen) = Seen::from(&light, &fan, &at) else {
+                                assert!(!flat && a * a + b * b + height * height < 0.26);
+                                continue;
+                            };
+                            let r = (a * a + b * b + height * height).sqrt();
+                            let cosine = if flat { height / r } else { 1.0 };
+                            let n = size * brightest * cosine / (r.max(half) * r.max(half) * error);
+                            // a cosine is off by 2⁻¹⁴ and more beside small numbers
+                            let off = n * $wrong * (1.0 + 1.0 / cosine);
+                            let bounded = |n: f64| n.ceil().clamp(4.0, 100.0) as u16;
+                            let got = seen.samples(&light);
+                            assert!(
+                                (bounded(n - off)..=bounded(n + off)).contains(&got),
+                                "{area:?} from {x:?}: {got} for {n}"
+                            );
+                            met[usize::from(got > 4) + usize::from(got == 100)] += 1;
+                        }
+                    }
+                }
+                assert!(met.iter().all(|&n| n > 250), "{met:?}");
+            }
+        };
+    }
+    counts!(counts_in_fixed, crate::math::Fixed, 2e-4);
+    counts!(counts_in_f32, f32, 1e-6);
+    counts!(counts_in_f64, f64, 1e-12);
 }

@@ -26,7 +26,7 @@ use whitted::frame::{Output, Tone};
 
 use whitted::scene::Scene;
 
-use super::{SAMPLINGS, Shot, View};
+use super::{SAMPLINGS, View};
 use crate::job::SceneName;
 
 type A = whitted::math::Fixed;
@@ -41,46 +41,28 @@ const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
 static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(limit::PARTS);
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
-    view.view(Shot { scene: &SAMPLED, camera: &limit::CAMERA, depth: 4, output: LINEAR })
+    view.view_parts(&SAMPLED, &limit::CAMERA, 4, LINEAR)
 }
 
 pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {
-    let (scene, camera) = (&mirrors::SCENE, &mirrors::CAMERA);
-    view.view(Shot { scene, camera, depth: 8, output: Output::SRGB })
+    view.view_parts(&mirrors::SCENE, &mirrors::CAMERA, 8, Output::SRGB)
 }
 
 #[inline(always)]
 pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
     match name {
         SceneName::Showcase => {
-            let (scene, camera) = (&showcase::SCENE, &showcase::CAMERA);
-            view.view(Shot { scene, camera, depth: 5, output: Output::SRGB })
+            view.view_parts(&showcase::SCENE, &showcase::CAMERA, 5, Output::SRGB)
         }
-        SceneName::Limit => {
-            let (scene, camera) = (&limit::SCENE, &limit::CAMERA);
-            view.view(Shot { scene, camera, depth: 4, output: LINEAR })
-        }
-        SceneName::Raystones => {
-            let (scene, camera) = (&raystones::SCENE, &raystones::CAMERA);
-            view.view(Shot { scene, camera, depth: 3, output: LINEAR })
-        }
-        SceneName::Ftb => {
-            let (scene, camera) = (&ftb::SCENE, &ftb::CAMERA);
-            view.view(Shot { scene, camera, depth: 3, output: LINEAR })
-        }
+        SceneName::Limit => view.view_parts(&limit::SCENE, &limit::CAMERA, 4, LINEAR),
+        SceneName::Raystones => view.view_parts(&raystones::SCENE, &raystones::CAMERA, 3, LINEAR),
+        SceneName::Ftb => view.view_parts(&ftb::SCENE, &ftb::CAMERA, 3, LINEAR),
         #[cfg(any(feature = "counted", not(target_os = "none")))]
-        SceneName::Gfxcat => {
-            let (scene, camera) = (&gfxcat::SCENE, &gfxcat::CAMERA);
-            view.view(Shot { scene, camera, depth: 2, output: LINEAR })
-        }
+        SceneName::Gfxcat => view.view_parts(&gfxcat::SCENE, &gfxcat::CAMERA, 2, LINEAR),
         #[cfg(any(feature = "counted", not(target_os = "none")))]
-        SceneName::Spheres64 => {
-            let (scene, camera) = (&spheres64::SCENE, &spheres64::CAMERA);
-            view.view(Shot { scene, camera, depth: 1, output: LINEAR })
-        }
+        SceneName::Spheres64 => view.view_parts(&spheres64::SCENE, &spheres64::CAMERA, 1, LINEAR),
         SceneName::Bathroom => {
-            let (scene, camera) = (&bathroom::SCENE, &bathroom::CAMERA);
-            view.view(Shot { scene, camera, depth: bathroom::DEPTH, output: Output::SRGB })
+            view.view_parts(&bathroom::SCENE, &bathroom::CAMERA, bathroom::DEPTH, Output::SRGB)
         }
         // Not carried there: no job asks for them.
         #[cfg(not(any(feature = "counted", not(target_os = "none"))))]

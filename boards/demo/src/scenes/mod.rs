@@ -33,8 +33,26 @@ pub trait View<A: Arithmetic> {
     /// What comes of it.
     type Output;
 
-    /// Does it.
+    /// Does it. To be inlined into [`view_parts`](Self::view_parts).
     fn view<const USES: u64>(self, shot: Shot<A, USES>) -> Self::Output;
+
+    /// The same, given the shot's parts one by one: the compiler then sees that they are always the
+    /// same statics, as they are in a firmware that draws but one scene, and reads them where they
+    /// are used, so long as nothing else in the image traces the scene. Not inlined, so that the stack
+    /// it takes is its own.
+    #[inline(never)]
+    fn view_parts<const USES: u64>(
+        self,
+        scene: &'static Scene<'static, A, USES>,
+        camera: &'static Camera<A>,
+        depth: u8,
+        output: Output,
+    ) -> Self::Output
+    where
+        Self: Sized,
+    {
+        self.view(Shot { scene, camera, depth, output })
+    }
 }
 
 /// An arithmetic that the scenes are there in.

@@ -1,0 +1,187 @@
+//! Trees as words: in a `static`, out of bounds, and made by somebody hostile.
+
+use super::*;
+
+static EXTENTS: [Extent; 64] = {
+    let mut all = [Extent::Sphere { center: [0; 3], radius: 30_000 }; 64];
+    let mut i = 0;
+    while i < 64 {
+        let c = [(i % 4) as i32, (i / 4 % 4) as i32, (i / 16) as i32];
+        let center = [c[0] * 65536, c[1] * 70000 + c[0] * 5000, c[2] * 80000 - c[1] * 9000];
+        all[i] = Extent::Sphere { center, radius: 20_000 + 500 * i as i32 };
+        i += 1;
+    }
+    all
+};
+static BUFFER: OctreeBuffer<400> = OctreeBuffer::build(&EXTENTS);
+static TREE: Octree<Fixed> = Octree::<Fixed>::of(&BUFFER, STEP);
+
+#[test]
+fn a_static_tree() {
+    assert_eq!(BUFFER.shapes(), 64);
+    assert!(BUFFER.built().levels >= 2);
+    let mut words = [0; 400];
+    let mut scratch = [0; 1000];
+    let built = build_into(&EXTENTS, &mut words, &mut scratch, Limits::DEFAULT).unwrap();
+    assert_eq!(&words[..built.words], BUFFER.words());
+    let shapes: Vec<Sphere<Fixed>> = (EXTENTS.iter())
+        .map(|e| match e {
+            Extent::Sphere { center, radius } => {
+                let center = center.map(|x| f64::from(x) / 65536.0);
+                Sphere::<Fixed>::new(center, f64::from(*radius) / 65536.0, 0)
+            }
+            _ => unreachable!(),
+        })
+        .collect();
+    let o = [1.0, 1.0, -9.0].map(|x| crate::math::fixed_constructors::length(x).unwrap());
+    let d = [0.0, 0.0, 1.0].map(|x| crate::math::fixed_constructors::unit(x).unwrap());
+    let mut found = Nearest::<Fixed>::new(&shapes, o, d);
+    TREE.walk(&o, &d, &mut WalkStack::new(), &mut found);
+    assert!(found.id != u32::MAX);
+}
+
+#[test]
+fn errors() {
+    let one = [Extent::Sphere { center: [0; 3], radius: 100 }; 40];
+    let build = |extents: &[Extent], words: usize, scratch: usize| {
+        build_into(extents, &mut vec![0; words], &mut vec![0; scratch], Limits::DEFAULT)
+    };
+    assert_eq!(build(&one, 3, 1000).unwrap_err(), BuildError::Words);
+    assert_eq!(build(&one, 0, 1000).unwrap_err(), BuildError::Words);
+    assert_eq!(build(&one, 100, 39).unwrap_err(), BuildError::Scratch);
+    assert!(build(&one, 100, 40).is_ok());
+    assert_eq!(build(&[], 0, 0).unwrap().words, 0);
+    for (center, radius) in [([i32::MAX, 0, 0], 1), ([0; 3], -1), ([0, 1 << 27, 0], 1)] {
+        let bad = [Extent::Sphere { center, radius }];
+        assert_eq!(build(&bad, 10, 10).unwrap_err(), BuildError::Extent);
+    }
+    let inverted = [Extent::Box { min: [1; 3], max: [0; 3] }];
+    assert_eq!(build(&inverted, 10, 10).unwrap_err(), BuildError::Extent);
+    let all = [Extent::Box { min: [-(1 << 27); 3], max: [1 << 27; 3] }];
+    let built = build(&all, 10, 10).unwrap();
+    assert_eq!((built.words, built.cube.log2_side), (1, 29));
+    std::assert_eq!(std::format!("{}", BuildError::Words), "too few words for the octree");
+}
+
+#[test]
+fn hostile_words_are_refused() {
+    let leaf = |ids: &[u32]| {
+        let width = node::IdWidth::of(5).unwrap();
+        let mut word = width.empty(false);
+        for (slot, id) in ids.iter().enumerate() {
+            word = width.with(word, slot, *id);
+        }
+        word
+    };
+    let inner = |children, first| node::inner(children, first).unwrap();
+    assert_eq!(validate(&[leaf(&[0, 4])], 5), Ok(0));
+    assert_eq!(validate(&[inner(3, 1), leaf(&[0]), leaf(&[1])], 5), Ok(1));
+    assert_eq!(validate(&[leaf(&[5])], 5), Err(TreeError::Id));
+    assert_eq!(validate(&[leaf(&[1]), leaf(&[1])], 5), Err(TreeError::Length));
+    assert_eq!(validate(&[], 5), Err(TreeError::Length));
+    assert_eq!(validate(&[], 0), Ok(0));
+    assert_eq!(validate(&[inner(1, 0)], 5), Err(TreeError::Order));
+    assert_eq!(validate(&[inner(0, 1)], 5), Err(TreeError::Childless));
+    assert_eq!(validate(&[inner(3, 1), leaf(&[1])], 5), Err(TreeError::Truncated));
+    assert_eq!(validate(&[node::leaf_of_run(1)], 5), Err(TreeError::Truncated));
+    assert_eq!(validate(&[node::leaf_of_run(0)], 5), Err(TreeError::Order));
+    let chain: Vec<u32> = (1..40).map(|i| inner(1, i)).collect();
+    assert_eq!(validate(&chain, 5), Err(TreeError::TooDeep));
+    assert_eq!(validate(&[0; 4], 1 << 23), Err(TreeError::TooManyShapes));
+}
+
+/// Words that are nearly a tree.
+fn nearly_a_tree() -> impl Strategy<Value = (Vec<u32>, usize)> {
+    (1u64.., 1usize..40, 0usize..3, 0usize..40).prop_map(|(seed, count, damage, room)| {
+        let mut random = Random(seed);
+        if damage == 0 {
+            return ((0..room).map(|_| random.next() as u32).collect(), count);
+        }
+        // grown at random in the right order, then perhaps damaged
+        let mut words = vec![0];
+        grow(&mut words, 0, 0, count, &mut random);
+        for _ in 1..damage {
+            let i = random.below(words.len() as u64) as usize;
+            words[i] ^= 1 << random.below(32);
+        }
+        (words, count)
+    })
+}
+
+fn grow(words: &mut Vec<u32>, slot: usize, level: usize, count: usize, random: &mut Random) {
+    let width = node::IdWidth::of(count).unwrap();
+    let first = words.len();
+    if random.below(4) > level as u64 / 2 || (level < MAX_LEVELS && random.below(20) == 0) {
+        let children = 1 + random.below(255) as u32;
+        words[slot] = node::inner(children, first).unwrap();
+        words.resize(first + children.count_ones() as usize, 0);
+        for i in first..first + children.count_ones() as usize {
+            grow(words, i, level + 1, count, random);
+        }
+        return;
+    }
+    let mut word = |continues| {
+        let mut word = width.empty(continues);
+        for slot in 0..random.below(1 + width.per_word() as u64) as usize {
+            word = width.with(word, slot, random.below(count as u64) as u32);
+        }
+        word
+    };
+    if level.is_multiple_of(2) {
+        words[slot] = word(false);
+    } else {
+        words[slot] = node::leaf_of_run(first);
+        words.push(word(true));
+        words.push(word(false));
+    }
+}
+
+struct Counter<A: Arithmetic> {
+    visits: usize,
+    shapes: u32,
+    limit: A::Length,
+}
+
+impl<A: Arithmetic> Visitor<A> for Counter<A> {
+    fn limit(&self) -> A::Length {
+        self.limit
+    }
+
+    fn visit(&mut self, id: u32) -> bool {
+        assert!(id < self.shapes);
+        self.visits += 1;
+        false
+    }
+
+    fn node(&mut self) {
+        self.visits += 1;
+    }
+
+    fn step(&mut self) {
+        self.visits += 1;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #[test]
+    fn what_passes_can_be_walked((words, count) in nearly_a_tree(), seed in 1u64..) {
+        let mut random = Random(seed);
+        let origin = random.point(6e7).map(|x| x as i32);
+        let cube = Cube { origin, log2_side: 10 + random.below(22) as u8 };
+        let tree = Octree::<Fixed>::try_new(&words, count, &cube, STEP);
+        if tree.is_ok() {
+            prop_assert!(validate(&words, count).is_ok());
+        }
+        let Ok(tree) = tree else { return Ok(()) };
+        for _ in 0..20 {
+            use crate::math::fixed_constructors as make;
+            let reach = [1000.0, 10.0][random.below(2) as usize];
+            let o = random.point(reach).map(|x| make::length(x).unwrap());
+            let d = random.direction().map(|x| make::unit(x).unwrap());
+            let mut counter = Counter { visits: 0, shapes: count as u32, limit: Fixed::FAR };
+            tree.walk(&o, &d, &mut WalkStack::new(), &mut counter);
+            prop_assert!(counter.visits <= 40 * words.len());
+        }
+    }
+}
