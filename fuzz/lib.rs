@@ -4,9 +4,10 @@ use whitted::blob::{Blob, Room, seal};
 use whitted::frame::{Output, Renderer, Rgb888, Sample, Settings};
 use whitted::math::Fixed;
 use whitted::scene::{
-    Absorption, Area, AreaLight, AreaLightSpec, Camera, FanCorner, Light, Material, MaterialSpec,
-    Pattern, Scene, Texture, TextureSpec,
+    Absorption, Area, AreaLight, AreaLightSpec, Camera, FanCorner, Group, Instance, Light,
+    Material, MaterialSpec, Pattern, Scene, Texture, TextureSpec,
 };
+use whitted::shape::{Operand, Solid};
 use whitted::trace::Work;
 use whitted_host::bake::{Baked, Construct};
 use whitted_host::document::Size;
@@ -67,8 +68,12 @@ macro_rules! look_into {
                     lights: &mut lights,
                     area_lights: &mut [AreaLight::<$a>::new(none); 4],
                     fans: &mut [FanCorner::NONE; 32],
-                    textures: &mut [Texture::<$a>::new(TextureSpec::of(Pattern::Checker)); 8],
+                    textures: &mut [Texture::<$a>::new(TextureSpec::of(Pattern::Checker)); 16],
                     absorptions: &mut [Absorption::<$a>::new([0.0; 3], [0.0; 3]); 4],
+                    solids: &mut [Solid::NONE; 16],
+                    operands: &mut [Operand::NONE; 64],
+                    groups: &mut [Group::<$a>::NONE; 8],
+                    instances: &mut [Instance::<$a>::NONE; 16],
                 };
                 let Ok(scene) = blob.scene_in(room) else { return };
                 let Ok(camera) = blob.camera() else { return };

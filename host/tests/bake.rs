@@ -11,9 +11,10 @@ use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::gather::Record;
 use whitted::math::Fixed;
 use whitted::scene::{
-    Absorption, Area, AreaLight, AreaLightSpec, Camera, FanCorner, Light, Material, MaterialSpec,
-    Pattern, Scene, Texture, TextureSpec,
+    Absorption, Area, AreaLight, AreaLightSpec, Camera, FanCorner, Group, Instance, Light,
+    Material, MaterialSpec, Pattern, Scene, Texture, TextureSpec,
 };
+use whitted::shape::{Operand, Solid};
 use whitted::tally::Counts;
 use whitted::trace::Work;
 use whitted_host::bake::{Baked, Glow, Thrift};
@@ -60,6 +61,10 @@ fn baked(file: &Path) -> (usize, usize) {
         fans: &mut [FanCorner::NONE; 16],
         textures: &mut [Texture::<Fixed>::new(TextureSpec::of(Pattern::Checker)); 64],
         absorptions: &mut [Absorption::<Fixed>::new([0.0; 3], [0.0; 3]); 8],
+        solids: &mut [Solid::NONE; 16],
+        operands: &mut [Operand::NONE; 64],
+        groups: &mut [Group::<Fixed>::NONE; 8],
+        instances: &mut [Instance::<Fixed>::NONE; 32],
     };
     let scene = blob.scene_in(room).unwrap();
     let camera = blob.camera().unwrap();
@@ -90,9 +95,14 @@ fn scenes_of_thousands_fit_and_look_as_before() {
 }
 
 #[test]
-fn blobs_hold_textures_media_area_lights_and_records() {
+fn blobs_hold_whatever_a_scene_may_have() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for file in ["scenes/textures.toml", "../boards/baked/lights.toml", "scenes/box.toml"] {
+    for file in [
+        "scenes/textures.toml",
+        "../boards/baked/lights.toml",
+        "scenes/box.toml",
+        "../boards/baked/surfaces.toml",
+    ] {
         baked(&root.join(file));
     }
 }
@@ -131,7 +141,7 @@ radiance = 3
 ";
 
 #[test]
-fn what_a_blob_cannot_hold_is_named() {
+fn what_few_scenes_have_is_baked_to_both_forms() {
     let place = tempfile::tempdir().unwrap();
     let indirect = "\n[indirect]\ntype = 'virtual-lights'\n";
     let solid = "\n[[solid]]\nunion = [{ sphere = { center = [0, 3, 0], radius = 1 } }, \
@@ -141,12 +151,12 @@ fn what_a_blob_cannot_hold_is_named() {
         fs::write(place.path().join(name), format!("{SCENE}{more}")).unwrap();
     }
     for (arguments, says) in [
-        (["bake", "indirect.toml", "-o", "indirect.bin"], "virtual lights"),
-        (["bake", "solid.toml", "-o", "solid.bin"], "solids"),
+        (["bake", "indirect.toml", "-o", "indirect.bin"], "7168 bytes  256 virtual lights\n"),
+        (["bake", "solid.toml", "-o", "solid.bin"], "materials, lights, setting, groups, solids\n"),
     ] {
         let output = whitted(place.path(), &arguments);
-        assert!(errors(&output).contains(says), "{}", errors(&output));
-        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(errors(&output), "");
+        assert!(said(&output).contains(says), "{}", said(&output));
     }
     let output = whitted(place.path(), &["bake", "area.toml", "-q", "-o", "area.rs"]);
     assert_eq!(errors(&output), "");
@@ -160,7 +170,15 @@ fn what_a_blob_cannot_hold_is_named() {
     assert!(source.contains("    indirect: INDIRECT,\n"));
     assert_eq!(
         files(place.path()),
-        ["area.rs", "area.toml", "indirect.rs", "indirect.toml", "solid.toml"]
+        [
+            "area.rs",
+            "area.toml",
+            "indirect.bin",
+            "indirect.rs",
+            "indirect.toml",
+            "solid.bin",
+            "solid.toml"
+        ]
     );
 }
 

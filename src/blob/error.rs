@@ -41,6 +41,8 @@ pub enum BlobError {
         /// Its number among those of all kinds, edges counted as shapes.
         index: u32,
     },
+    /// A solid or one of its operands is none.
+    Solid,
     /// The tree is none.
     Tree(TreeError),
     /// A material, light or camera, or what surrounds the scene.
@@ -64,6 +66,17 @@ pub enum BlobError {
         textures: u16,
         /// Media.
         absorptions: u16,
+    },
+    /// More solids and groups than the caller has room for.
+    RoomForGroups {
+        /// Solids, those of groups among them.
+        solids: u32,
+        /// Their operands.
+        operands: u32,
+        /// Groups.
+        groups: u16,
+        /// Instances of them.
+        instances: u16,
     },
     /// The parts don't fit together.
     Scene(SceneError),
@@ -92,6 +105,7 @@ impl fmt::Display for BlobError {
             Self::Endian => "this core is big-endian",
             Self::Parts => "the parts don't fill the bytes",
             Self::Shape { index } => return write!(f, "shape {index} has a value out of range"),
+            Self::Solid => "a solid or one of its operands is none",
             Self::Tree(error) => return write!(f, "{error}"),
             Self::Value(error) => return write!(f, "{error}"),
             Self::Unknown => "a kind or switch that this version doesn't know",
@@ -103,6 +117,13 @@ impl fmt::Display for BlobError {
                     f,
                     "there are {area_lights} area lights with {fans} corners, {textures} textures \
                      and {absorptions} media: no room"
+                );
+            }
+            Self::RoomForGroups { solids, operands, groups, instances } => {
+                return write!(
+                    f,
+                    "there are {solids} solids of {operands} operands, {groups} groups and \
+                     {instances} instances: no room"
                 );
             }
             Self::Scene(error) => return write!(f, "{error}"),

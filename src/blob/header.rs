@@ -3,7 +3,7 @@
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
 use super::{ALIGNMENT, BlobError};
-use crate::gather::Record;
+use crate::gather::{Record, VirtualLight};
 use crate::math::Arithmetic;
 use crate::octree::Cube;
 use crate::scene::TriangleUv;
@@ -12,7 +12,7 @@ use crate::shape::{
 };
 
 /// The version of the layout that this library writes and reads.
-pub const VERSION: u16 = 2;
+pub const VERSION: u16 = 3;
 
 /// Kinds of lists of shapes, edges and planes included.
 pub(super) const LISTS: usize = 10;
@@ -22,17 +22,17 @@ const MAGIC: [u8; 8] = *b"whitted\x1a";
 pub(super) const CHECKSUM: usize = 16;
 const SUMMED: usize = 20;
 /// The bytes of the header.
-const SIZE: usize = 128;
+const SIZE: usize = 144;
 
 pub(super) const NO_CUBE: Cube = Cube { origin: [0; 3], log2_side: 0 };
 
 /// How many of what a blob holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
-    /// Spheres, triangles, smooth triangles, polygons, edges of polygons, boxes, discs, cylinders,
+    /// Those of the scene and of its groups: spheres, triangles, smooth triangles, polygons, edges of polygons, boxes, discs, cylinders,
     /// cones, planes.
     pub shapes: [u32; 10],
-    /// Words of the octree.
+    /// Words of the octrees.
     pub words: u32,
     /// Materials.
     pub materials: u16,
@@ -56,6 +56,16 @@ pub struct Counts {
     pub textures: u16,
     /// Media.
     pub absorptions: u16,
+    /// Virtual lights.
+    pub virtual_lights: u32,
+    /// Solids, those of groups among them.
+    pub solids: u32,
+    /// Operands of solids.
+    pub operands: u32,
+    /// Groups.
+    pub groups: u16,
+    /// Instances of groups.
+    pub instances: u16,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +108,8 @@ const fn layout<A: Arithmetic>() -> u32 {
         i += 1;
     }
     let hash = (hash ^ size_of::<TriangleUv>() as u32).wrapping_mul(0x0100_0193);
-    (hash ^ size_of::<Record<A>>() as u32).wrapping_mul(0x0100_0193)
+    let hash = (hash ^ size_of::<Record<A>>() as u32).wrapping_mul(0x0100_0193);
+    (hash ^ size_of::<VirtualLight<A>>() as u32).wrapping_mul(0x0100_0193)
 }
 
 fn arithmetic<A: Arithmetic>() -> u16 {
@@ -122,10 +133,12 @@ impl Header {
         let shapes = lists.map(|(size, count)| up(size.wrapping_mul(count as usize)));
         let shapes = shapes.fold(0, usize::wrapping_add);
         let list = |count: u32, size: usize| up(size.wrapping_mul(count as usize));
-        let Counts { uvs, records, corners, words, pictures, specs, .. } = self.counts;
+        let Counts { uvs, records, virtual_lights, corners, words, pictures, specs, .. } =
+            self.counts;
         let rest = [
             list(uvs, size_of::<TriangleUv>()),
             list(records, size_of::<Record<A>>()),
+            list(virtual_lights, size_of::<VirtualLight<A>>()),
             list(corners, size_of::<[f64; 3]>()),
             list(words, 4),
             list(pictures, 1),
@@ -138,6 +151,7 @@ impl Header {
         let Counts { shapes, words, materials, lights, specs, .. } = self.counts;
         let Counts { uvs, records, corners, pictures, .. } = self.counts;
         let Counts { area_lights, fans, textures, absorptions, .. } = self.counts;
+        let Counts { virtual_lights, solids, operands, groups, instances, .. } = self.counts;
         to(&MAGIC);
         to(&VERSION.to_le_bytes());
         to(&arithmetic::<A>().to_le_bytes());
@@ -153,6 +167,8 @@ impl Header {
         to(&lights.to_le_bytes());
         [specs, uvs, records, corners, pictures].iter().for_each(|n| to(&n.to_le_bytes()));
         [area_lights, fans, textures, absorptions].iter().for_each(|n| to(&n.to_le_bytes()));
+        [virtual_lights, solids, operands].iter().for_each(|n| to(&n.to_le_bytes()));
+        [groups, instances].iter().for_each(|n| to(&n.to_le_bytes()));
         to(&[0; 4]);
     }
 
@@ -196,7 +212,7 @@ impl Header {
             1 => true,
             _ => return Err(BlobError::Unknown),
         };
-        if byte(35) != 0 || whole(124) != 0 {
+        if byte(35) != 0 || whole(140) != 0 {
             return Err(BlobError::Unknown);
         }
         let header = Self {
@@ -214,6 +230,11 @@ impl Header {
                 fans: half(118),
                 textures: half(120),
                 absorptions: half(122),
+                virtual_lights: whole(124),
+                solids: whole(128),
+                operands: whole(132),
+                groups: half(136),
+                instances: half(138),
             },
             cube: Cube {
                 origin: [whole(36) as i32, whole(40) as i32, whole(44) as i32],

@@ -143,6 +143,25 @@ impl Stored for u8 {
     }
 }
 
+/// Intensities, which in floating point are a number alone.
+macro_rules! intensities {
+    ($($type:ty),*) => {
+        $(
+            impl Stored for $type {
+                fn store(&self, to: &mut [u8]) {
+                    put(self, to, 0);
+                }
+
+                fn is_sound(&self) -> bool {
+                    *self >= 0.0 && *self <= 1e12
+                }
+            }
+        )*
+    };
+}
+
+intensities!(f32, f64);
+
 /// A mesh's normal, whose components are numbers of their own.
 macro_rules! normals {
     ($($type:ty: |$x:ident| $sound:expr),*) => {

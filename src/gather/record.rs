@@ -103,7 +103,7 @@ stored!(Record {
     && square(rotation_q6, 1.0 / 63.0, 0.0, 4.12));
 
 /// Whether the square of a vector lies within bounds.
-fn square<T: Copy + Into<f64>>(v: &[T; 3], one: f64, least: f64, most: f64) -> bool {
+pub(super) fn square<T: Copy + Into<f64>>(v: &[T; 3], one: f64, least: f64, most: f64) -> bool {
     let square = v.iter().map(|&x| Into::<f64>::into(x) * one).fold(0.0, |sum, x| sum + x * x);
     square >= least && square <= most
 }

@@ -14,6 +14,10 @@
 //! take turns with the n×n parts of the lights, each n² times as bright. The parts follow each
 //! other in the sequence, so that each is spread evenly.
 
+use bytemuck::AnyBitPattern;
+
+use super::record::square;
+use crate::blob::stored;
 use crate::math::{Arithmetic, Rgb, for_each_arithmetic};
 use crate::shape::{ShapeError, ok_or_panic, point, some_or};
 
@@ -32,7 +36,8 @@ pub struct VirtualLightSpec {
 }
 
 /// A virtual light; 28 bytes in fixed point, and in `f32`; 40 in `f64`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, AnyBitPattern)]
+#[repr(C)]
 pub struct VirtualLight<A: Arithmetic> {
     pub(crate) position: [A::Length; 3],
     /// Sixteen times what it adds, see above, in the largest channel before the albedos.
@@ -41,6 +46,11 @@ pub struct VirtualLight<A: Arithmetic> {
     /// The channels with the albedos along the path.
     pub(crate) color_q15: [u16; 3],
 }
+
+stored!(VirtualLight {
+    position: lengths, intensity: nested, normal_q14: whole, color_q15: whole,
+} if color_q15.iter().all(|&c| c <= 33096)
+    && square(normal_q14, 1.0 / 16384.0, if *color_q15 == [0; 3] { 0.0 } else { 0.98 }, 1.02));
 
 const _: () = assert!(size_of::<VirtualLight<crate::math::Fixed>>() == 28);
 const _: () = assert!(size_of::<VirtualLight<f32>>() == 28);

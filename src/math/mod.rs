@@ -107,7 +107,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// The reciprocal of a length.
     type Inverse: Copy;
     /// A light's strength, before falloff.
-    type Intensity: Copy + Debug + Send + Sync;
+    type Intensity: Stored + Debug + Send + Sync;
     /// Phong's exponent.
     type Exponent: Copy + Debug + Send + Sync;
     /// The quotient of two indices of refraction.

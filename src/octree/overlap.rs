@@ -167,7 +167,15 @@ pub(crate) const fn bounds(extent: &Extent) -> ([i32; 3], [i32; 3]) {
     match extent {
         Extent::Box { min, max } => (*min, *max),
         Extent::Sphere { center: c, radius: r } => {
-            ([c[0] - *r, c[1] - *r, c[2] - *r], [c[0] + *r, c[1] + *r, c[2] + *r])
+            // Groups are bounded before anything says that their shapes fit a grid.
+            let (mut min, mut max) = (*c, *c);
+            let mut axis = 0;
+            while axis < 3 {
+                min[axis] = min[axis].saturating_sub(*r);
+                max[axis] = max[axis].saturating_add(*r);
+                axis += 1;
+            }
+            (min, max)
         }
         Extent::Round { ends, radii, .. } => super::round::bounds(ends, radii),
         Extent::Triangle { corners } => {

@@ -73,7 +73,8 @@ pub(super) const fn bounds(ends: &[[i32; 3]; 2], radii: &[i32; 2]) -> ([i32; 3],
         let across = root_up(square - n[axis] * n[axis]) + 2;
         let reach = over(radii[end] as i64 * across, length) + 1;
         let reach = if reach < radii[end] as i64 { reach as i32 } else { radii[end] };
-        let (low, high) = (ends[end][axis] - reach, ends[end][axis] + reach);
+        let end = ends[end][axis];
+        let (low, high) = (end.saturating_sub(reach), end.saturating_add(reach));
         min[axis] = if low < min[axis] { low } else { min[axis] };
         max[axis] = if high > max[axis] { high } else { max[axis] };
         i += 1;

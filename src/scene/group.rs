@@ -40,6 +40,19 @@ macro_rules! each {
 
 for_each_arithmetic! {
     impl<'a> Group<'a, A> {
+        /// One without shapes: what a pool is made of before groups are put there.
+        pub const NONE: Self = Self {
+            shapes: Shapes::EMPTY,
+            count: 0,
+            center: [A::NO_LENGTH; 3],
+            radius: match make::radius(1.0) {
+                Some(radius) => radius,
+                None => panic!("1 is a radius"),
+            },
+            materials: 0,
+            uses: 0,
+        };
+
         /// A group, for scenes in `static`s.
         ///
         /// # Panics
@@ -77,7 +90,7 @@ for_each_arithmetic! {
             while farthest >> 25 >> step != 0 {
                 step += 1;
             }
-            while step > -25 && (farthest as i64) << -step < 1 << 25 {
+            while step <= 0 && step > -25 && (farthest as i64) << -step < 1 << 25 {
                 step -= 1;
             }
             (min, max) = around(&shapes, step);

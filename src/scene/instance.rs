@@ -29,7 +29,12 @@ pub struct Instance<'a, A: Arithmetic> {
 }
 
 for_each_arithmetic! {
+    const NO_GROUP: &Group<'static, A> = &Group::<A>::NONE;
+
     impl<'a> Instance<'a, A> {
+        /// One of a group without shapes: what a pool is made of before instances are put there.
+        pub const NONE: Self = Self::new(NO_GROUP, Transform::IDENTITY);
+
         /// A group at a place, for scenes in `const`s.
         ///
         /// # Panics

@@ -26,6 +26,12 @@ pub struct Cuboid<A: Arithmetic> {
 
 stored!(Cuboid { min: lengths, max: lengths, material: whole } if min.iter().zip(max).all(|(low, high)| low <= high));
 
+impl<A: Arithmetic> Cuboid<A> {
+    /// One without a size, which no constructor makes.
+    pub(crate) const NONE: Self =
+        Self { min: [A::NO_LENGTH; 3], max: [A::NO_LENGTH; 3], material: MaterialId::new(0) };
+}
+
 for_each_arithmetic! {
     impl Cuboid<A> {
         /// A box, for scenes in `const`s.

@@ -45,6 +45,17 @@ impl Region {
         Self(words)
     }
 
+    /// The table, for a blob: bit m of all words is set if points inside of just the operands
+    /// whose bits m has are in the region.
+    pub(crate) const fn words(&self) -> &[u32; 8] {
+        &self.0
+    }
+
+    /// Of such a table.
+    pub(crate) const fn of_words(words: [u32; 8]) -> Self {
+        Self(words)
+    }
+
     /// What is in either: the union.
     #[must_use]
     pub const fn or(mut self, other: Self) -> Self {

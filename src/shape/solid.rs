@@ -175,6 +175,9 @@ for_each_arithmetic! {
 }
 
 impl<A: Arithmetic> Operand<A> {
+    /// One without a size: what a pool is made of before operands are put there.
+    pub const NONE: Self = Self::Cuboid(Cuboid::NONE);
+
     pub(crate) const fn material_id(&self) -> MaterialId {
         match self {
             Self::Sphere(shape) => shape.material_id(),
@@ -207,6 +210,19 @@ impl<A: Arithmetic> Operand<A> {
 }
 
 impl<A: Arithmetic> Solid<A> {
+    /// One without an inside, of no operands: what a pool is made of before solids are put there.
+    pub const NONE: Self =
+        Self { region: Region::NOTHING, bound: Cuboid::NONE, first_operand: 0, operand_count: 0 };
+
+    /// The same with its operands elsewhere.
+    pub(crate) const fn starting_at(self, first: u32) -> Self {
+        Self { first_operand: first, ..self }
+    }
+
+    pub(crate) const fn region(&self) -> &Region {
+        &self.region
+    }
+
     /// The index of its first operand, among the scene's.
     pub const fn first_operand(&self) -> u32 {
         self.first_operand

@@ -15,7 +15,7 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
-use whitted::blob::{self, Blob, Content, Room};
+use whitted::blob::{self, Blob, Content, GroupContent, InstanceSpec, Room};
 use whitted::frame::Transfer;
 use whitted::frame::{self, Dither, Output, Passes, Renderer, Sample, Sampling, Settings, Tone};
 use whitted::gather::{Draft, Gatherer, Gathering, GatheringSpec, Indirect, IrradianceCache};
@@ -325,6 +325,9 @@ macro_rules! arithmetic {
             let mut textures = any([Texture::<$a>::try_new(&any(texture)).ok()?; 2]);
             let mut areas = any([AreaLight::<$a>::try_new(&lamp).ok()?; 2]);
             let (mut fans, mut media) = (any([FanCorner::NONE; 8]), any(absorptions));
+            let (mut pool_solids, mut pool_operands) = ([Solid::NONE; 4], [Operand::NONE; 8]);
+            let mut pool_groups = [Group::<$a>::NONE; 2];
+            let mut pool_instances = [Instance::<$a>::NONE; 2];
             let scene: Scene<'_, $a> = blob
                 .scene_in(any(Room {
                     materials: any(&mut materials),
@@ -333,13 +336,22 @@ macro_rules! arithmetic {
                     fans: any(&mut fans),
                     textures: any(&mut textures),
                     absorptions: any(&mut media),
+                    solids: any(&mut pool_solids),
+                    operands: any(&mut pool_operands),
+                    groups: any(&mut pool_groups),
+                    instances: any(&mut pool_instances),
                 }))
                 .ok()?;
             any(scene.parts());
             let (specs, kinds) = (any([MaterialSpec::BLACK]), any([point, spot]));
             let (surfaces, lamps) = ([texture; 2], [lamp; 2]);
+            let placed =
+                [InstanceSpec { group: any(0), transform: turned, material: any(Some(0)) }];
+            let grouped = [GroupContent { shapes, tree: any(None) }];
             let content = Content {
                 shapes,
+                groups: any(&grouped),
+                instances: any(&placed),
                 planes: any(&planes),
                 tree: Some((any(&words), cube, any(-16))),
                 materials: &specs,
@@ -348,6 +360,7 @@ macro_rules! arithmetic {
                 textures: any(&surfaces),
                 area_lights: any(&lamps),
                 cache: any(Some((filled.records(), 0.2))),
+                virtual_lights: any(Some((laid.lights(), any(VirtualLightsSpec::DEFAULT)))),
                 setting: *blob.setting(),
                 uses: any(7),
             };

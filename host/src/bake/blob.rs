@@ -1,11 +1,11 @@
 //! A scene as one piece of bytes, for flash.
 
-use whitted::blob::{Content, Counts, seal};
-use whitted::gather::Record;
-use whitted::scene::{Area, AreaLight, Shapes, TriangleUv, uses};
+use whitted::blob::{Content, Counts, GroupContent, InstanceSpec, seal};
+use whitted::gather::{Record, VirtualLight};
+use whitted::scene::{Area, AreaLight, TriangleUv, uses};
 
 use super::{Baked, Construct, Glow, light, specs};
-use crate::document::{Indirect, Size};
+use crate::document::Size;
 use crate::error::{Flaw, Problem};
 
 /// A blob, and what is in it.
@@ -21,13 +21,8 @@ impl<A: Construct> Baked<A> {
     /// The blob of the scene (see `docs/blob.md`), its camera for pictures of a size.
     ///
     /// # Errors
-    /// The scene holds what a blob can't.
+    /// More of something than a blob can number.
     pub fn blob(&self, size: Size) -> Result<Flash, Flaw> {
-        self.fits_blob()?;
-        self.flash(size)
-    }
-
-    fn flash(&self, size: Size) -> Result<Flash, Flaw> {
         let mut bits = self.with_scene(|scene| scene.parts().uses())?;
         let parts = self.shapes.parts()?;
         let refused = |what, error| super::refused::<A>(what, error, None);
@@ -47,28 +42,48 @@ impl<A: Construct> Baked<A> {
             let why = "a blob holds 65535 of them".into();
             return Err(Problem::Unrepresentable { what, why }.anywhere());
         }
-        let cache = match self.glow(size)? {
+        // Groups that stand nowhere are left out: the others move up.
+        let (mut groups, mut numbers) = (Vec::new(), Vec::new());
+        for shapes in self.groups.all() {
+            numbers.push(groups.len() as u16);
+            if let Some(shapes) = shapes {
+                let tree = shapes.words();
+                groups.push(GroupContent { shapes: shapes.parts()?.shapes(), tree });
+            }
+        }
+        let places = self.groups.places();
+        let instances: Vec<_> = places
+            .map(|(group, transform, material)| InstanceSpec {
+                group: numbers.get(group).copied().unwrap_or(0),
+                transform: *transform,
+                material,
+            })
+            .collect();
+        for (what, count) in [("the groups", groups.len()), ("the instances", instances.len())] {
+            if u16::try_from(count).is_err() {
+                let (what, why) = (what.into(), "a blob holds 65535 of them".into());
+                return Err(Problem::Unrepresentable { what, why }.anywhere());
+            }
+        }
+        let (mut cache, mut virtual_lights) = (None, None);
+        match self.glow(size)? {
             Glow::Cache { records, error } => {
                 bits |= uses::IRRADIANCE_CACHE;
                 let records: Result<Vec<_>, _> = records.iter().map(A::new_record).collect();
-                Some((records.map_err(|e| refused("an irradiance record", e))?, error))
+                cache = Some((records.map_err(|e| refused("an irradiance record", e))?, error));
             }
-            Glow::None | Glow::VirtualLights { .. } => None,
-        };
+            Glow::VirtualLights { lights, settings } => {
+                bits |= uses::VIRTUAL_LIGHTS;
+                let lights: Result<Vec<_>, _> = lights.iter().map(A::new_virtual_light).collect();
+                let lights = lights.map_err(|e| refused("a virtual light", e))?;
+                virtual_lights = Some((lights, settings));
+            }
+            Glow::None => {}
+        }
         let content = Content {
-            shapes: Shapes {
-                spheres: parts.spheres,
-                triangles: parts.triangles,
-                smooth_triangles: parts.smooth_triangles,
-                polygons: parts.polygons,
-                edges: parts.edges,
-                cuboids: parts.cuboids,
-                discs: parts.discs,
-                cylinders: parts.cylinders,
-                cones: parts.cones,
-                uvs: parts.uvs,
-                ..Shapes::EMPTY
-            },
+            shapes: parts.shapes(),
+            groups: &groups,
+            instances: &instances,
             planes: parts.planes,
             tree: self.shapes.words(),
             materials: &materials,
@@ -77,6 +92,9 @@ impl<A: Construct> Baked<A> {
             textures: &textures,
             area_lights: &area_lights,
             cache: cache.as_ref().map(|(records, error)| (records.as_slice(), *error)),
+            virtual_lights: virtual_lights
+                .as_ref()
+                .map(|(lights, settings)| (lights.as_slice(), *settings)),
             setting: specs::setting(&self.placed, size),
             uses: bits,
         };
@@ -88,33 +106,6 @@ impl<A: Construct> Baked<A> {
         }
         seal(&mut bytes);
         Ok(Flash { bytes, counts: content.counts() })
-    }
-
-    /// Whether a blob can hold all of the scene.
-    fn fits_blob(&self) -> Result<(), Flaw> {
-        let without = self.with_scene(|scene| {
-            let parts = scene.parts();
-            [
-                ("instances of groups", parts.instances.is_empty()),
-                ("solids", parts.solids.is_empty()),
-                (
-                    "virtual lights",
-                    !matches!(self.placed.indirect, Some(Indirect::VirtualLights(_))),
-                ),
-            ]
-        })?;
-        refuse(&without, "a blob can't hold them; Rust source (`-o scene.rs`) can")
-    }
-}
-
-/// Refuses the first that isn't empty.
-fn refuse(without: &[(&str, bool)], why: &str) -> Result<(), Flaw> {
-    match without.iter().find(|(_, empty)| !empty) {
-        None => Ok(()),
-        Some(&(what, _)) => {
-            let (what, why) = (what.into(), why.into());
-            Err(Problem::Unrepresentable { what, why }.anywhere())
-        }
     }
 }
 
@@ -145,15 +136,23 @@ pub fn parts_of<A: Construct>(counts: &Counts) -> Vec<(&'static str, usize, usiz
     for (name, (count, bytes)) in [
         ("texture coordinates", list(counts.uvs, size_of::<TriangleUv>())),
         ("irradiance records", list(counts.records, size_of::<Record<A>>())),
+        ("virtual lights", list(counts.virtual_lights, size_of::<VirtualLight<A>>())),
         ("corners of area lights", list(counts.corners, size_of::<[f64; 3]>())),
     ] {
         all.push((name, count, bytes));
     }
     let Counts { materials, lights, absorptions, textures, area_lights, .. } = *counts;
-    let specs = [materials, lights, absorptions, textures, area_lights].map(usize::from);
+    let Counts { groups, instances, solids, .. } = *counts;
+    let specs = [materials, lights, absorptions, textures, area_lights, groups, instances];
+    let specs = specs.map(usize::from).iter().sum::<usize>() + solids as usize;
     let pictures = counts.pictures as usize;
     all.push(("bytes of pictures", pictures, pictures));
-    all.push(("materials, lights, setting", specs.iter().sum(), counts.specs as usize));
+    let name = if solids > 0 || groups > 0 {
+        "materials, lights, setting, groups, solids"
+    } else {
+        "materials, lights, setting"
+    };
+    all.push((name, specs, counts.specs as usize));
     all.retain(|(_, count, _)| *count > 0);
     all
 }

@@ -130,6 +130,9 @@ construct! {
     fn new_record(spec: &RecordSpec) -> Made<Record<Self>>
         = |A| Record::<A>::try_new(spec);
     /// See [`VirtualLight`].
+    fn new_virtual_light(spec: &VirtualLightSpec) -> Made<VirtualLight<Self>>
+        = |A| VirtualLight::<A>::try_new(spec);
+    /// See [`VirtualLight`].
     fn virtual_light_spec(light: &VirtualLight<Self>) -> VirtualLightSpec
         = |A| { let light: &VirtualLight<A> = light; light.spec() };
 

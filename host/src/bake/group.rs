@@ -83,6 +83,11 @@ impl<A: Construct> Groups<A> {
         self.places.iter().filter_map(make).collect()
     }
 
+    /// The shapes of each group in the document's order; `None` for one that stands nowhere.
+    pub(super) fn all(&self) -> impl Iterator<Item = Option<&Shapes<A>>> {
+        (0..self.shapes.len()).map(|index| self.placed(index))
+    }
+
     /// The shapes of a group by the document's index; `None` if it stands nowhere.
     pub(super) fn placed(&self, index: usize) -> Option<&Shapes<A>> {
         self.places.iter().find(|place| place.group == index)?;

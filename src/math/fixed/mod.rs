@@ -59,7 +59,8 @@ pub struct FixedInverse {
 }
 
 /// `mantissa_q15 · 2^exponent`, mantissa in ½ to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
+#[repr(C)]
 pub struct FixedIntensity {
     mantissa_q15: u16,
     exponent: i16,
@@ -117,6 +118,9 @@ stored_numbers!(FixedBarycentric { second, third, second_down, third_down, shift
     if |f| f.second_down <= 16 && f.third_down <= 16 && f.shift <= 16
         && f.second.iter().chain(&f.third).all(|x| x.unsigned_abs() <= 16384));
 stored_numbers!(FixedOutline { half, shift } if |o| o.shift <= 16 && o.half.iter().all(|&x| x <= 16385));
+// 10¹² is less than 2⁴⁰; the smallest that isn't null is more than 2⁻³⁰.
+stored_numbers!(FixedIntensity { mantissa_q15, exponent }
+    if |x| x.mantissa_q15 <= 1 << 15 && x.exponent.unsigned_abs() <= 40);
 stored_numbers!(FixedEdge { normal, offset }
     if |e| e.normal.iter().all(|x| x.unsigned_abs() <= 16384));
 
