@@ -4,8 +4,7 @@ use core::convert::Infallible;
 use core::iter;
 
 use embedded_hal::digital::OutputPin;
-use embedded_hal::spi::{ErrorType, SpiBus};
-use embedded_hal_async::spi::SpiBus as AsyncBus;
+use embedded_hal_async::spi::SpiBus;
 use mipidsi::Display;
 use mipidsi::interface::InterfacePixelFormat;
 use mipidsi::models::Model;
@@ -16,7 +15,10 @@ use whitted_demo::job::SceneName;
 use whitted_demo::rgb565::{self, BYTES};
 use whitted_demo::scenes::{Shot, Shots, View};
 
-use crate::link::{Buffers, Link};
+use crate::link::{Buffers, Fault, Link};
+
+/// A frame is to be drawn so many times until it is whole; then it is another scene's turn.
+pub const TRIES: usize = 5;
 
 /// A picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,14 +34,14 @@ pub struct Frame {
 /// Draws a frame in the display's upper left corner, one ray a pixel, in an arithmetic.
 ///
 /// # Errors
-/// If the bus fails; the next frame is whole again.
+/// If the bus fails or stands still; the next frame is whole again.
 pub async fn draw<A: Shots, S, C, D, M, R>(
     display: &mut Display<Link<S, C, D>, M, R>,
     frame: Frame,
     buffers: &mut Buffers,
-) -> Result<(), <S as ErrorType>::Error>
+) -> Result<(), Fault<S::Error>>
 where
-    S: SpiBus + AsyncBus,
+    S: SpiBus,
     C: OutputPin<Error = Infallible>,
     D: OutputPin<Error = Infallible>,
     M: Model,

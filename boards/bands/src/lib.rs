@@ -7,5 +7,5 @@
 mod frame;
 mod link;
 
-pub use frame::{Frame, draw};
-pub use link::{BAND, Buffers, Link};
+pub use frame::{Frame, TRIES, draw};
+pub use link::{BAND, Buffers, Fault, Link};

@@ -1,4 +1,4 @@
-"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]
+"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]…
 
 The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
 written where the firmware looks for it; of a firmware that doesn't look, as the template, it is `-`,
@@ -11,8 +11,8 @@ the core's cycles between the edges of the mark (GPIO 15), the bytes sent in bet
 RAM that the stack has never touched, and the cycles from reset to the mark.
 
 With STICK, SPI stands still after so many bytes of the frame, until the display is let go of. The
-frame is drawn again then, and the line is about the second time. What the firmware has logged
-comes in lines `log …`.
+frame is drawn again then, and for the next STICK fails once more; the line is about the last time. What
+the firmware has logged comes in lines `log …`.
 """
 
 import logging
@@ -81,10 +81,11 @@ def main():
     def mark(value, before):
         if value.value == 1 or marks:
             marks.append((chip.core.cycles, display.bytes))
-        if len(marks) == (4 if stick else 2):
+        if len(marks) == 2 * (1 + len(stick)):
             simulator.stopped = True
-        if len(marks) == 1 and stick:
-            display.stick(int(stick[0]))
+        times, drawing = divmod(len(marks), 2)
+        if drawing and times < len(stick):
+            display.stick(int(stick[times]))
 
     chip.gpio[LED_PIN if order == "-" else MARK_PIN].add_listener(mark)
 
