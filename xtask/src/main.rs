@@ -11,6 +11,7 @@ mod machine;
 mod nopanic;
 mod oled;
 mod pico;
+mod picture;
 mod pov;
 mod report;
 mod setup;
@@ -34,6 +35,8 @@ cargo xtask bench --stages [SCENE|JOB]… [--machine M] [--flame FILE.svg] [--fo
                                            calls, --folded writes them as text
 cargo xtask emulate pico [OPTION]…         run the Pico's image and save what its display shows;
                                            --help names the options
+cargo xtask picture JOB|room [-o FILE.png] [--rgb565]
+                                           what a board has to draw, as the host draws it
 cargo xtask stack                          the stack of a frame at each depth, on every emulated
                                            board, as the table of docs/memory.md
 cargo xtask nopanic                        the no-panic proof alone, naming culprits
@@ -53,6 +56,7 @@ fn main() -> ExitCode {
         }
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
         ["emulate", "pico", options @ ..] => pico::run(options),
+        ["picture", words @ ..] => picture::run(words),
         ["stack"] => stack::run(),
         ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
         ["pov", words @ ..] => pov::run(words),
