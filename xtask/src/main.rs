@@ -11,6 +11,7 @@ mod machine;
 mod nopanic;
 mod oled;
 mod pico;
+mod pico2;
 mod picture;
 mod pov;
 mod report;
@@ -37,6 +38,7 @@ cargo xtask emulate pico [OPTION]…         run the Pico's image and save what 
                                            --help names the options
 cargo xtask picture JOB|room [-o FILE.png] [--rgb565]
                                            what a board has to draw, as the host draws it
+cargo xtask emulate pico2 [OPTION]…        have a core of the Pico 2's trace a frame
 cargo xtask stack                          the stack of a frame at each depth, on every emulated
                                            board, as the table of docs/memory.md
 cargo xtask nopanic                        the no-panic proof alone, naming culprits
@@ -56,6 +58,7 @@ fn main() -> ExitCode {
         }
         ["bench", options @ ..] => bench::Options::read(options).and_then(|o| bench::run(&o)),
         ["emulate", "pico", options @ ..] => pico::run(options),
+        ["emulate", "pico2", options @ ..] => pico2::run(options),
         ["picture", words @ ..] => picture::run(words),
         ["stack"] => stack::run(),
         ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
@@ -76,12 +79,13 @@ fn main() -> ExitCode {
 type Group = fn(&mut Report);
 
 /// The groups, in the order they run.
-const GROUPS: [(&str, Group); 5] = [
+const GROUPS: [(&str, Group); 6] = [
     ("lint", lint::check),
     ("host", lint::host_tests),
     ("nopanic", nopanic::check),
     ("boards", firmware::check),
     ("pico", pico::check),
+    ("pico2", pico2::check),
 ];
 
 /// The groups that `--only` names, or all.

@@ -51,15 +51,15 @@ pub fn used(top: usize) -> usize {
     top.saturating_sub(p.addr())
 }
 
-#[cfg(target_arch = "arm")]
-fn stack_pointer() -> usize {
-    cortex_m::register::msp::read() as usize
-}
-
-#[cfg(target_arch = "riscv32")]
+#[cfg(any(target_arch = "arm", target_arch = "riscv32"))]
 fn stack_pointer() -> usize {
     let pointer;
     // SAFETY: reads a register, and nothing else.
-    unsafe { core::arch::asm!("mv {}, sp", out(reg) pointer, options(nomem, nostack)) };
+    unsafe {
+        #[cfg(target_arch = "arm")]
+        core::arch::asm!("mov {}, sp", out(reg) pointer, options(nomem, nostack, preserves_flags));
+        #[cfg(target_arch = "riscv32")]
+        core::arch::asm!("mv {}, sp", out(reg) pointer, options(nomem, nostack));
+    }
     pointer
 }

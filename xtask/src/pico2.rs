@@ -1,0 +1,216 @@
+//! The Raspberry Pi Pico 2, emulated: one core of either kind traces a frame, which is compared with
+//! the host's.
+//!
+//! `rp2350-emu` runs no image as it is. It needs a boot ROM, which is nobody's to pass on with it: cores
+//! start where the ROM would have led them. Of Armv8-M it knows neither loads that acquire nor stores that
+//! release; with one core at work, plain ones do the same, and take their place here. Nor does it
+//! know how registers of the floating-point unit are pushed, so that no image in `f32` runs.
+
+use std::path::Path;
+
+use rp2350_emu::{Arch, Config, Emulator, EmulatorBuilder};
+use whitted::frame::Sampling;
+use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted_demo::rgb565;
+
+use crate::elf;
+use crate::machine;
+use crate::report::Report;
+use crate::setup;
+use crate::shell::boards;
+
+const FLASH: u64 = 0x1000_0000;
+const FLASH_SIZE: usize = 4 << 20;
+const ROM_SIZE: usize = 32 << 10;
+/// Where the other core waits for ever, in the ROM: `wfe`, and back.
+const ASIDE: u32 = 0x100;
+const WAITING: [u8; 4] = [0x20, 0xbf, 0xfd, 0xe7];
+/// High while a frame is drawn.
+const MARK: u8 = 15;
+/// Cycles without a frame: a minute or so.
+const PATIENCE: u64 = 500_000_000;
+/// What the check draws.
+const SMALL: (u16, u16) = (60, 45);
+
+const USAGE: &str = "\
+cargo xtask emulate pico2 [--scene NAME] [--size WIDTHxHEIGHT] [--cores arm|riscv]
+    traces a frame in fixed point on one core; scenes are showcase, limit, raystones and ftb; the size is
+    60x45 unless given, at most 240x240";
+
+/// The kinds of cores.
+const CORES: [(&str, &str); 2] =
+    [("arm", "thumbv8m.main-none-eabihf"), ("riscv", "riscv32imac-unknown-none-elf")];
+
+/// The command: traces a scene, compares, and says what it took.
+pub(crate) fn run(words: &[&str]) -> Result<(), String> {
+    let (mut scene, mut size, mut cores) = (SceneName::Limit, SMALL, CORES[0]);
+    let (pairs, rest) = words.as_chunks::<2>();
+    if !rest.is_empty() {
+        return Err(USAGE.into());
+    }
+    for &[option, value] in pairs {
+        match option {
+            "--scene" => {
+                scene = *SceneName::ALL.iter().find(|s| s.name() == value).ok_or(USAGE)?;
+            }
+            "--size" => {
+                let (width, height) = value.split_once('x').ok_or(USAGE)?;
+                let side = |text: &str| text.parse().ok().filter(|n| (1..=240).contains(n));
+                size = (side(width).ok_or(USAGE)?, side(height).ok_or(USAGE)?);
+            }
+            "--cores" => cores = *CORES.iter().find(|cores| cores.0 == value).ok_or(USAGE)?,
+            _ => return Err(USAGE.into()),
+        }
+    }
+    setup::run()?;
+    let took = trace(cores.1, &job(scene, size))?;
+    println!("{took}; the pixels sum to the host's");
+    Ok(())
+}
+
+/// The check: a core of either kind traces what the host does.
+pub(crate) fn check(report: &mut Report) {
+    let job = job(SceneName::Limit, SMALL);
+    for (name, target) in CORES {
+        report.check(&format!("Pico 2, {name} (rp2350-emu): {job}"), || {
+            println!("     {}", trace(target, &job)?);
+            Ok(())
+        });
+    }
+}
+
+fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
+    Job { scene, arith: ArithName::Fixed, width, height, sampling: Sampling::Center }
+}
+
+/// Builds the image, runs it until the frame is traced, compares, and says what it took.
+fn trace(target: &str, job: &Job) -> Result<String, String> {
+    let features = "st7789-240x240,rtt,one-core,fixed";
+    let more = ["--no-default-features", "--features", features];
+    let image = machine::build_with(&boards().join("pico2"), "pico2", target, &more)?;
+    let mut chip = boot(&image, job)?;
+    let start = wait(&mut chip, true, job)?;
+    let cycles = wait(&mut chip, false, job)? - start;
+
+    let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
+    rgb565::draw(job.scene, job.width, job.height, &mut picture);
+    let expected = rgb565::sum(0, &picture);
+    let sum = chip.peek(elf::symbol(&image, "TRACED")?.0 as u32);
+    if sum != expected {
+        return Err(format!("{job}: the pixels sum to {sum:#x}, the host's to {expected:#x}"));
+    }
+    let pixel = cycles / (u64::from(job.width) * u64::from(job.height));
+    // The emulator takes one cycle for each of RISC-V's instructions.
+    let what = if elf::is_riscv(&image)? { "instructions" } else { "cycles" };
+    Ok(format!("{cycles} {what}, {pixel} a pixel"))
+}
+
+/// The chip with an image that is to trace a job, about to begin it.
+fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
+    let mut flash = vec![0xff; FLASH_SIZE];
+    for (address, data) in elf::segments(image)? {
+        let start = address.checked_sub(FLASH).ok_or("a segment below the flash")? as usize;
+        let place = flash.get_mut(start..start + data.len()).ok_or("larger than the flash")?;
+        place.copy_from_slice(&data);
+    }
+    let (order, size) = elf::symbol(image, "ORDER")?;
+    let start = (order - FLASH) as usize;
+    let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
+    flash[start..start + text.len()].copy_from_slice(text.as_bytes());
+
+    let riscv = elf::is_riscv(image)?;
+    let arch = if riscv { Arch::RiscV } else { Arch::Arm };
+    let builder = EmulatorBuilder::new(Config::default()).arch(arch).step_quantum(1);
+    let mut chip = builder.build().map_err(|error| format!("{error:?}"))?;
+    let mut rom = vec![0; ROM_SIZE];
+    if !riscv {
+        // The stack's end and the program's start.
+        rom[..8].copy_from_slice(&flash[..8]);
+        rom[ASIDE as usize..][..WAITING.len()].copy_from_slice(&WAITING);
+        // By cortex-m-rt's linker script.
+        let (end, _) = elf::symbol(image, "__etext")?;
+        make_plain(flash.get_mut(..(end - FLASH) as usize).ok_or("code beyond the flash")?);
+    }
+    chip.load_bootrom(&rom);
+    chip.load_flash(&flash);
+    chip.reset();
+    if riscv {
+        chip.core_riscv_mut(0).set_pc(FLASH as u32);
+        chip.core_riscv_mut(1).set_halted(true);
+    } else {
+        chip.core_mut(1).regs.set_pc(ASIDE);
+    }
+    Ok(chip)
+}
+
+/// Puts plain loads and stores, and plain exclusive ones, in the place of those that acquire and
+/// release.
+fn make_plain(code: &mut [u8]) {
+    let mut at = 0;
+    while let Some(bytes) = code.get_mut(at..at + 4) {
+        let half = |i: usize| u16::from_le_bytes([bytes[i], bytes[i + 1]]);
+        let found = plain([half(0), half(2)]);
+        if let Some([first, second]) = found {
+            bytes[..2].copy_from_slice(&first.to_le_bytes());
+            bytes[2..].copy_from_slice(&second.to_le_bytes());
+        }
+        at += if found.is_some() { 4 } else { 2 };
+    }
+}
+
+/// The plain instruction for one that acquires or releases (Armv8-M Architecture Reference Manual).
+fn plain([first, second]: [u16; 2]) -> Option<[u16; 2]> {
+    let (n, t, status) = (first & 15, second & 0xf000, second & 15);
+    Some(match (first & 0xfff0, second & 0x0ff0, status) {
+        // LDAB, LDAH, LDA
+        (0xe8d0, 0xf80, 15) => [0xf890 | n, t],
+        (0xe8d0, 0xf90, 15) => [0xf8b0 | n, t],
+        (0xe8d0, 0xfa0, 15) => [0xf8d0 | n, t],
+        // STLB, STLH, STL
+        (0xe8c0, 0xf80, 15) => [0xf880 | n, t],
+        (0xe8c0, 0xf90, 15) => [0xf8a0 | n, t],
+        (0xe8c0, 0xfa0, 15) => [0xf8c0 | n, t],
+        // LDAEXB, LDAEXH, LDAEX
+        (0xe8d0, 0xfc0, 15) => [0xe8d0 | n, t | 0xf4f],
+        (0xe8d0, 0xfd0, 15) => [0xe8d0 | n, t | 0xf5f],
+        (0xe8d0, 0xfe0, 15) => [0xe850 | n, t | 0xf00],
+        // STLEXB, STLEXH, STLEX
+        (0xe8c0, 0xfc0, status) => [0xe8c0 | n, t | 0xf40 | status],
+        (0xe8c0, 0xfd0, status) => [0xe8c0 | n, t | 0xf50 | status],
+        (0xe8c0, 0xfe0, status) => [0xe840 | n, t | status << 8],
+        _ => return None,
+    })
+}
+
+/// Runs until the mark is at a level; the first core's cycles until then.
+fn wait(chip: &mut Emulator, level: bool, job: &Job) -> Result<u64, String> {
+    let end = chip.core_cycles(0) + PATIENCE;
+    while chip.core_cycles(0) < end {
+        chip.step().map_err(|error| format!("{error:?}"))?;
+        if chip.gpio_read(MARK) == level {
+            return Ok(chip.core_cycles(0));
+        }
+        if chip.cores.is_arm() && (8..ASIDE).contains(&chip.core(0).regs.pc()) {
+            return Err(format!("{job}: a fault after {} cycles", chip.core_cycles(0)));
+        }
+    }
+    Err(format!("{job}: no frame"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn acquiring_becomes_plain() {
+        // ldab r3, [r3]; stlb r0, [r1]; lda r0, [r1]; by LLVM's assembler, as the plain ones
+        assert_eq!(plain([0xe8d3, 0x3f8f]), Some([0xf893, 0x3000]));
+        assert_eq!(plain([0xe8c1, 0x0f8f]), Some([0xf881, 0x0000]));
+        assert_eq!(plain([0xe8d1, 0x0faf]), Some([0xf8d1, 0x0000]));
+        // ldaex r1, [r0]; stlex r2, r1, [r0]
+        assert_eq!(plain([0xe8d0, 0x1fef]), Some([0xe850, 0x1f00]));
+        assert_eq!(plain([0xe8c0, 0x1fe2]), Some([0xe840, 0x1200]));
+        // ldrexb r3, [r3]
+        assert_eq!(plain([0xe8d3, 0x3f4f]), None);
+    }
+}
