@@ -254,6 +254,18 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
         true
     }
 
+    /// Whether a ray may be within three slabs at once, those across the axes: `near` and `far` are
+    /// the ways to their planes along each axis, in the ray's direction, `far` not negative, and
+    /// `speed` the direction's components without their signs. Cheap, and never wrong when it says no.
+    #[inline(always)]
+    fn may_cross(
+        _near: &[Self::Length; 3],
+        _far: &[Self::Length; 3],
+        _speed: &[Self::Unit; 3],
+    ) -> bool {
+        true
+    }
+
     /// The directions in which rays can meet the sphere of radius `r` around `way` that start at
     /// the coordinates' origin or, `blurred`, lead past it no farther than the direction made by
     /// [`normalize`](Self::normalize) may be wrong. `None` for all directions: near the sphere, or
@@ -400,8 +412,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// `a/s`, likewise.
     fn reduce(s: &Self::Scale, a: Self::Length) -> Self::Length;
 
-    /// Half of a span.
-    fn half(s: Self::Span) -> Self::Span;
+    /// A span over 2^`times`, for 0 to 31.
+    fn halved(s: Self::Span, times: u32) -> Self::Span;
     /// The side of a tree, 2^`log2_side`.
     fn side(log2_side: i8) -> Self::Length;
 }

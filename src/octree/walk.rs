@@ -4,8 +4,10 @@
 //! then numbered along it, and one xor gives their true numbers. For each axis the walk knows
 //! the ray parameter at which the current cell's far face is passed (its exits) and that of
 //! crossing half the cell; a child's exits are the cell's in the upper half, and less by the
-//! half in the lower one. Going down halves; going on looks for the smallest exit. There is no
-//! multiplication after the set-up.
+//! half in the lower one. Going down halves; going on looks for the smallest exit, and crosses
+//! that axis alone: the next child's exit there is the cell's. Where the child lies in the upper
+//! half already, the cell itself is left across the same face, and its parent goes on with the
+//! same axis. There is no multiplication after the set-up.
 //!
 //! A ray that starts outside is first moved to where it enters the cube, less what that place
 //! may be wrong, so its start may lie a little before the cube: nothing here minds.
@@ -53,23 +55,23 @@ const RECENT: usize = 8;
 #[derive(Clone, Copy, Debug)]
 struct Frame<A: Arithmetic> {
     word: u32,
-    /// The current child's number, in the mirrored order.
+    /// The current child's number, in the mirrored order: written where the ray goes down.
     number: u32,
-    exits: [A::Span; 3],
-    halves: [A::Span; 3],
+    /// The current child's exits; those of the node itself are in the frame before.
+    ends: [A::Span; 3],
 }
 
 /// A walk's memory. It needn't be cleared between walks.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkStack<A: Arithmetic> {
-    frames: [Frame<A>; MAX_LEVELS],
+    /// The first one stands for what is around the root: its word and number stay 0.
+    frames: [Frame<A>; MAX_LEVELS + 1],
 }
 
 impl<A: Arithmetic> WalkStack<A> {
     /// Memory for walks, one after the other.
     pub const fn new() -> Self {
-        let spans = [A::NO_SPAN; 3];
-        Self { frames: [Frame { word: 0, number: 0, exits: spans, halves: spans }; MAX_LEVELS] }
+        Self { frames: [Frame { word: 0, number: 0, ends: [A::NO_SPAN; 3] }; MAX_LEVELS + 1] }
     }
 }
 
@@ -202,73 +204,74 @@ impl<A: Arithmetic> Octree<'_, A> {
             A::spans(o[1], d[1], self.log2_side),
             A::spans(o[2], d[2], self.log2_side),
         ];
-        let mut exits = [spans[0].0, spans[1].0, spans[2].0];
-        let mut halves = [A::half(spans[0].1), A::half(spans[1].1), A::half(spans[2].1)];
         let zero = A::NO_SPAN;
         // Where the hits are, distances are as wrong as the place where the ray enters.
         let back = start - slack;
         let bound_of = |limit: A::Length| A::span(limit - back, self.log2_side);
         let mut bound = bound_of(visitor.limit());
-        let mut level = 0;
+        if zero > bound {
+            return;
+        }
         let mut recent = [u32::MAX; RECENT];
-
         if node::is_leaf(word) {
-            if zero <= bound {
-                self.visit_leaf(word, &mut recent, visitor);
-            }
+            self.visit_leaf(word, &mut recent, visitor);
             return;
         }
-        let mut number = first_child::<A>(&exits, &halves, zero);
-        let mut ends = child_exits::<A>(&exits, &halves, number);
-        let mut entry = zero;
-        if entry > bound {
-            return;
-        }
-        visitor.node();
+        let whole = [spans[0].1, spans[1].1, spans[2].1];
+        let [around, ..] = &mut stack.frames;
+        around.ends = [spans[0].0, spans[1].0, spans[2].0];
+        let (mut level, mut entry) = (0, zero);
         loop {
-            visitor.step();
-            if let Some(index) = node::child(word, number ^ mirror) {
-                let Some(&below) = self.words.get(index) else { return };
-                if node::is_leaf(below) {
+            // The node of this word is entered.
+            visitor.node();
+            let Some([above, frame, ..]) = stack.frames.get_mut(level..) else { return };
+            level += 1;
+            let mut number = 0;
+            for axis in 0..3 {
+                let middle = above.ends[axis] - A::halved(whole[axis], level as u32);
+                let upper = middle <= entry;
+                number |= u32::from(upper) << axis;
+                frame.ends[axis] = if upper { above.ends[axis] } else { middle };
+            }
+            frame.word = word;
+            loop {
+                visitor.step();
+                if let Some(index) = node::child(word, number ^ mirror) {
+                    let Some(&below) = self.words.get(index) else { return };
+                    if !node::is_leaf(below) {
+                        let Some(frame) = stack.frames.get_mut(level) else { return };
+                        frame.number = number;
+                        word = below;
+                        break;
+                    }
                     if self.visit_leaf(below, &mut recent, visitor) {
                         return;
                     }
                     bound = bound_of(visitor.limit());
-                } else {
-                    let Some(frame) = stack.frames.get_mut(level) else { return };
-                    *frame = Frame { word, number, exits, halves };
-                    level += 1;
-                    word = below;
-                    exits = ends;
-                    halves = [A::half(halves[0]), A::half(halves[1]), A::half(halves[2])];
-                    number = first_child::<A>(&exits, &halves, entry);
-                    ends = child_exits::<A>(&exits, &halves, number);
-                    visitor.node();
-                    continue;
                 }
-            }
-            // On to the next child, of this node or of one above.
-            loop {
-                let mut axis = 1;
-                entry = ends[0];
-                if ends[1] < entry {
-                    (entry, axis) = (ends[1], 2);
+                // On to the next child, of this node or of one above.
+                let Some(frame) = stack.frames.get(level) else { return };
+                let mut axis = 0;
+                entry = frame.ends[0];
+                if frame.ends[1] < entry {
+                    (entry, axis) = (frame.ends[1], 1);
                 }
-                if ends[2] < entry {
-                    (entry, axis) = (ends[2], 4);
+                if frame.ends[2] < entry {
+                    (entry, axis) = (frame.ends[2], 2);
                 }
                 if entry > bound {
                     return;
                 }
-                if number & axis == 0 {
-                    number |= axis;
-                    ends = child_exits::<A>(&exits, &halves, number);
-                    break;
+                while number & 1 << axis != 0 {
+                    level -= 1;
+                    let Some(frame) = stack.frames.get(level) else { return };
+                    (word, number) = (frame.word, frame.number);
                 }
-                level = level.wrapping_sub(1);
-                let Some(frame) = stack.frames.get(level) else { return };
-                Frame { word, number, exits, halves } = *frame;
-                ends = child_exits::<A>(&exits, &halves, number);
+                number |= 1 << axis;
+                // There is no node around the root.
+                let Some(level_above) = level.checked_sub(1) else { return };
+                let Some([above, frame, ..]) = stack.frames.get_mut(level_above..) else { return };
+                frame.ends[axis] = above.ends[axis];
             }
         }
     }
@@ -312,24 +315,4 @@ impl<A: Arithmetic> Octree<'_, A> {
 fn position_error<A: Arithmetic>(t: A::Length) -> A::Length {
     let ahead = [A::ONE_UNIT, A::NO_UNIT, A::NO_UNIT];
     A::leave(&[A::NO_LENGTH; 3], &ahead, t)[0]
-}
-
-/// The child in which the ray is at `entry`.
-#[inline(always)]
-fn first_child<A: Arithmetic>(exits: &[A::Span; 3], halves: &[A::Span; 3], entry: A::Span) -> u32 {
-    let passed = |axis: usize| u32::from(exits[axis] - halves[axis] <= entry) << axis;
-    passed(0) | passed(1) | passed(2)
-}
-
-/// Where the ray leaves the child's slabs.
-#[inline(always)]
-fn child_exits<A: Arithmetic>(
-    exits: &[A::Span; 3],
-    halves: &[A::Span; 3],
-    number: u32,
-) -> [A::Span; 3] {
-    let exit = |axis: usize| {
-        if number >> axis & 1 != 0 { exits[axis] } else { exits[axis] - halves[axis] }
-    };
-    [exit(0), exit(1), exit(2)]
 }

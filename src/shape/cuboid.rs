@@ -130,34 +130,44 @@ impl<A: Arithmetic> Shape<A> for Cuboid<A> {
         inwards: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        let (mut entry, mut exit) = (A::NO_LENGTH, A::FAR);
-        let (mut entry_mark, mut exit_mark) = (A::NO_LENGTH, mark::<A>(2));
+        let (mut near, mut far) = ([A::NO_LENGTH; 3], [A::NO_LENGTH; 3]);
+        let mut speed = [A::NO_UNIT; 3];
         for i in 0..3 {
             let (o, d) = (ray.origin[i], ray.direction[i]);
-            let positive = d >= A::NO_UNIT;
-            let (to_near, to_far, speed) = if positive {
+            (near[i], far[i], speed[i]) = if d >= A::NO_UNIT {
                 (self.min[i] - o, self.max[i] - o, d)
             } else {
                 (o - self.max[i], o - self.min[i], -d)
             };
-            if to_far < A::NO_LENGTH {
+            // It takes at least so far along the ray.
+            if far[i] < A::NO_LENGTH || near[i] > limit && !inwards {
                 return None;
             }
-            let far = A::ratio(to_far, speed);
-            if far < exit {
-                exit = far;
+        }
+        if !inwards && !A::may_cross(&near, &far, &speed) {
+            return None;
+        }
+        let (mut entry, mut exit) = (A::NO_LENGTH, A::FAR);
+        let (mut entry_mark, mut exit_mark) = (A::NO_LENGTH, mark::<A>(2));
+        for i in 0..3 {
+            let leaves = A::ratio(far[i], speed[i]);
+            if leaves < exit {
+                exit = leaves;
                 exit_mark = mark::<A>(i as u8);
             }
-            if to_near > A::NO_LENGTH {
-                let near = A::ratio(to_near, speed);
-                if near > limit {
+            if near[i] > A::NO_LENGTH {
+                let enters = A::ratio(near[i], speed[i]);
+                if enters > limit {
                     if !inwards {
                         return None;
                     }
-                } else if near > entry {
-                    entry = near;
+                } else if enters > entry {
+                    entry = enters;
                     entry_mark = -mark::<A>(i as u8);
                 }
+            }
+            if entry > exit && !inwards {
+                return None;
             }
         }
         let (distance, detail) =
@@ -201,6 +211,7 @@ mod tests {
     use super::*;
     use crate::math::Fixed;
     use crate::shape::testing::{distance, ray};
+    use proptest::{array, prelude::*};
 
     #[test]
     fn twenty_eight_bytes() {
@@ -229,6 +240,33 @@ mod tests {
                 o[axis] = -5.0 * sign;
                 o[(axis + 1) % 3] = 4.0;
                 assert_eq!(distance(&cuboid, &ray(o, d)), None);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4096))]
+        #[test]
+        fn quick_rejection_loses_no_hit(
+            low in array::uniform3(-300.0..300.0f64),
+            log_size in array::uniform3(-6.0..8.0f64),
+            o in array::uniform3(-300.0..300.0f64),
+            within in array::uniform3(-0.2..1.2f64),
+        ) {
+            // Towards a place in the box or near it, often past an edge.
+            let high = [0, 1, 2].map(|i| low[i] + log_size[i].exp2());
+            let cuboid = Cuboid::<Fixed>::new(low, high, 0);
+            let way = [0, 1, 2].map(|i| low[i] + within[i] * (high[i] - low[i]) - o[i]);
+            let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+            prop_assume!(length > 0.01);
+            let ray = ray::<Fixed>(o, way.map(|x| x / length));
+            let coarse = Fixed::coarse(&ray.origin, &ray.direction);
+            // The same quotients, without the rejection.
+            let chord = cuboid.chord(&ray, &coarse);
+            let slow = chord.and_then(|c| c.nearest(false, Fixed::FAR));
+            let quick = cuboid.nearest(&ray, &coarse, false, Fixed::FAR);
+            if let Some(slow) = slow {
+                prop_assert_eq!(quick.map(|m| m.distance), Some(slow.distance));
             }
         }
     }

@@ -2,7 +2,9 @@
 //! it is.
 
 use super::kernel::magnitude;
-use super::{Fixed, FixedBarycentric, FixedEdge, FixedOutline, FixedSpot, Unit, Weight};
+use super::{
+    COARSE_SHIFT, Fixed, FixedBarycentric, FixedEdge, FixedOutline, FixedSpot, Unit, Weight,
+};
 use crate::math::{Arithmetic, root};
 use ::fixed::types::I16F16;
 
@@ -117,4 +119,27 @@ pub(super) fn blend(n: &[[Unit; 3]; 3], b: Weight, c: Weight) -> [Unit; 3] {
         Unit::from_bits(sum >> 12)
     };
     Fixed::renormalize(&[f(0), f(1), f(2)]).0
+}
+/// See `Arithmetic::may_cross`.
+///
+/// The ray enters slab i at nᵢ/sᵢ and leaves slab j at fⱼ/sⱼ, so it misses where nᵢ·sⱼ > fⱼ·sᵢ. In
+/// steps of 1/128 and of 2⁻¹², the way to the near plane rounded down and that to the far one up,
+/// the half steps that the speeds may be wrong are (n + f)/2 in all; the quotients of
+/// `Arithmetic::ratio`, which decide in the end, may be wrong by less than the other half and 16.
+#[inline(always)]
+pub(super) fn may_cross(near: &[i32; 3], far: &[i32; 3], speed: &[i32; 3]) -> bool {
+    let n = |i: usize| near[i] >> COARSE_SHIFT;
+    let f = |i: usize| (far[i] >> COARSE_SHIFT).wrapping_add(1);
+    let s = |i: usize| speed[i].wrapping_add(16) >> 5;
+    let (n, f, s) = ([n(0), n(1), n(2)], [f(0), f(1), f(2)], [s(0), s(1), s(2)]);
+    let apart = |i: usize, j: usize| {
+        let gap = n[i].wrapping_mul(s[j]).wrapping_sub(f[j].wrapping_mul(s[i]));
+        gap > (n[i].wrapping_add(f[j])).wrapping_add(16)
+    };
+    for i in 0..3 {
+        if n[i] > 0 && (apart(i, (i + 1) % 3) || apart(i, (i + 2) % 3)) {
+            return false;
+        }
+    }
+    true
 }

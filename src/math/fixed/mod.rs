@@ -371,6 +371,11 @@ impl Arithmetic for Fixed {
         round::may_hit(ray, center, r, limit)
     }
 
+    #[inline(always)]
+    fn may_cross(near: &[I16F16; 3], far: &[I16F16; 3], speed: &[Unit; 3]) -> bool {
+        flat::may_cross(&lengths(near), &lengths(far), &units(speed))
+    }
+
     fn direction_cone(
         way: &[I16F16; 3],
         r: &FixedRadius,
@@ -680,8 +685,8 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn half(s: i32) -> i32 {
-        s >> 1
+    fn halved(s: i32, times: u32) -> i32 {
+        s >> (times & 31)
     }
 
     #[inline(always)]

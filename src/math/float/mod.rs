@@ -622,8 +622,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn half(s: $f) -> $f {
-                s * 0.5
+            fn halved(s: $f, times: u32) -> $f {
+                s * constructors::$constructors::power_of_two(-(times as i8))
             }
 
             #[inline(always)]
