@@ -254,6 +254,18 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
         true
     }
 
+    /// Whether the line of a ray may come within `r` of the line through `p` along `axis`: cheap, and
+    /// never wrong when it says no.
+    #[inline(always)]
+    fn may_pass(
+        _ray: &Self::Coarse,
+        _p: &[Self::Length; 3],
+        _axis: &[Self::Unit; 3],
+        _r: &Self::Radius,
+    ) -> bool {
+        true
+    }
+
     /// Whether a ray may be within three slabs at once, those across the axes: `near` and `far` are
     /// the ways to their planes along each axis, in the ray's direction, `far` not negative, and
     /// `speed` the direction's components without their signs. Cheap, and never wrong when it says no.

@@ -188,6 +188,9 @@ impl<A: Arithmetic> Shape<A> for Cylinder<A> {
         inwards: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
+        if !A::may_pass(coarse, &self.base, &self.axis, &self.radius) {
+            return None;
+        }
         if self.capped != 0 {
             return self.nearest_with_caps(*ray, *coarse, inwards, limit);
         }
@@ -215,11 +218,14 @@ impl<A: Arithmetic> Shape<A> for Open<'_, Cylinder<A>> {
     fn nearest(
         &self,
         ray: &Ray<A>,
-        _: &A::Coarse,
+        coarse: &A::Coarse,
         inwards: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
         let it = self.0;
+        if !A::may_pass(coarse, &it.base, &it.axis, &it.radius) {
+            return None;
+        }
         let (m, q, da) = it.split(&ray.direction);
         // A ray along the axis stays as far from it as it is.
         if q <= A::NO_UNIT {

@@ -372,6 +372,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
+    fn may_pass(ray: &FixedCoarse, p: &[I16F16; 3], axis: &[Unit; 3], r: &FixedRadius) -> bool {
+        round::may_pass(ray, p, axis, r)
+    }
+
+    #[inline(always)]
     fn may_cross(near: &[I16F16; 3], far: &[I16F16; 3], speed: &[Unit; 3]) -> bool {
         flat::may_cross(&lengths(near), &lengths(far), &units(speed))
     }

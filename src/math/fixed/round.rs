@@ -117,6 +117,40 @@ pub(super) fn may_hit(
     r >= 1 << 15 || square <= r.wrapping_mul(r) as u32
 }
 
+/// See `Arithmetic::may_pass`.
+///
+/// Two lines along d and a are |c·n|/|n| apart, where n = d × a and c leads from one to the other. Of a
+/// vector's components, the largest and half of the others are no less than its length.
+#[inline(always)]
+pub(super) fn may_pass(
+    ray: &FixedCoarse,
+    p: &[I16F16; 3],
+    axis: &[Unit; 3],
+    r: &FixedRadius,
+) -> bool {
+    let d = &ray.d_q12;
+    let a = |i: usize| axis[i].to_bits().wrapping_add(16) >> 5;
+    let a = [a(0), a(1), a(2)];
+    let n =
+        |i: usize, j: usize| d[i].wrapping_mul(a[j]).wrapping_sub(d[j].wrapping_mul(a[i])) >> 12;
+    let n = [n(1, 2), n(2, 0), n(0, 1)];
+    let c = |i: usize| p[i].to_bits().wrapping_sub(ray.o[i]) >> COARSE_SHIFT;
+    let c = [c(0), c(1), c(2)];
+    let q = |i: usize| c[i].wrapping_mul(n[i]);
+    let apart = q(0).wrapping_add(q(1)).wrapping_add(q(2)).wrapping_abs() >> 12;
+    let n = [n[0].wrapping_abs(), n[1].wrapping_abs(), n[2].wrapping_abs()];
+    let mut largest = n[0];
+    largest = if n[1] > largest { n[1] } else { largest };
+    largest = if n[2] > largest { n[2] } else { largest };
+    let sum = n[0].wrapping_add(n[1]).wrapping_add(n[2]);
+    let length = largest.wrapping_add(sum) >> 1;
+    // Rounding moves a component of n by less than 2.5, its bound by less than 8, and each of c by one.
+    let slack =
+        c[0].wrapping_abs().wrapping_add(c[1].wrapping_abs()).wrapping_add(c[2].wrapping_abs());
+    let reach = (r.coarse as i32).wrapping_mul(length.wrapping_add(8)) >> 12;
+    apart <= reach.wrapping_add(slack >> 10).wrapping_add(4)
+}
+
 /// See `Arithmetic::direction_cone`.
 ///
 /// A line in direction d through the origin passes the point v at √(|v|² − (d·v)²), so it comes

@@ -156,6 +156,31 @@ proptest! {
     }
 
     #[test]
+    fn coarse_never_loses_a_line(r in 0.001..300.0f64, o in any(500.0), p in any(500.0), v in toward(), w in toward(),
+                                 angle in 0.0..6.3f64, part in 0.0..1.0f64, s in -400.0..400.0f64) {
+        // Through a point within r of the axis.
+        let radius = make::radius(r).unwrap();
+        let (axis, a) = direction_of(v);
+        let (_, b) = direction_of(w);
+        let dot: f64 = (0..3).map(|i| a[i] * b[i]).sum();
+        let across = [0, 1, 2].map(|i| b[i] - dot * a[i]);
+        let length = across.iter().map(|x| x * x).sum::<f64>().sqrt();
+        prop_assume!(length > 0.01);
+        let u = across.map(|x| x / length);
+        let n = [0, 1, 2].map(|i| a[(i + 1) % 3] * u[(i + 2) % 3] - a[(i + 2) % 3] * u[(i + 1) % 3]);
+        let (sin, cos) = angle.sin_cos();
+        let to = [0, 1, 2].map(|i| p[i] + s * a[i] + r * part * (cos * u[i] + sin * n[i]));
+        let aim = [0, 1, 2].map(|i| to[i] - o[i]);
+        let distance = aim.iter().map(|x| x * x).sum::<f64>().sqrt();
+        prop_assume!(distance > 0.01);
+        let (d, _) = direction_of(aim);
+        let (o, p) = (lengths_of(o), lengths_of(p));
+        // The direction's rounding leads past the point by so much.
+        prop_assume!(r * (1.0 - part) > distance / 60000.0 + 4.0 * LSB);
+        prop_assert!(Fixed::may_pass(&Fixed::coarse(&o, &d), &p, &axis, &radius));
+    }
+
+    #[test]
     fn corners_and_inside(b in prop::array::uniform2(-50.0..50.0f64), c in prop::array::uniform2(-50.0..50.0f64),
                           u in -0.5..1.5f64, v in -0.5..1.5f64) {
         let det = (b[0] * c[1] - b[1] * c[0]).abs();
