@@ -164,7 +164,8 @@ fn load(path: &Path) -> Result<(Format, Vec<u8>), Problem> {
     Ok((format, bytes(path)?))
 }
 
-fn bytes(path: &Path) -> Result<Vec<u8>, Problem> {
+/// A file's bytes.
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Problem> {
     let about = std::fs::metadata(path).map_err(Problem::Io)?;
     if about.is_dir() {
         return Err(Problem::Directory);

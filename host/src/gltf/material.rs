@@ -9,6 +9,7 @@
 //! | n_s | (2/r⁴ − 2)/4, within 1 to 1000: the lobe of the microfacets' half-vectors (Walter et al. 2007, with α = r²) is four times as narrow as Phong's (Fisher and Woo 1994) |
 //! | k_s | F·(n_s + 2)/2, at most 1, with F = 0.04·(1 − m) + m·b: Phong's lobe, normalised |
 //! | k_tg | t·b, refracted by the index of the file |
+//! | texture | baseColorTexture, that k_d and k_amb are multiplied by |
 //! | k_amb | b·(1 − t)·(1 − m·(1 − r)²): what isn't transmitted or mirrored |
 //! | L_e | emissiveFactor times its strength |
 
@@ -56,7 +57,7 @@ pub(super) fn read(
     let mut through = match through {
         Some(through) => {
             if through.transmission_texture.is_some() {
-                noticed.leave_out("textures", place);
+                noticed.leave_out("textures other than the base colour's", place);
             }
             within("extensions transmissionFactor", through.transmission_factor.0, 1.0)?
         }
@@ -81,13 +82,12 @@ pub(super) fn read(
         Checked::Valid(AlphaMode::Mask) => noticed.leave_out("masks (alphaMode MASK)", place),
         _ => {}
     }
-    let textures = pbr.base_color_texture.is_some()
-        || pbr.metallic_roughness_texture.is_some()
+    let textures = pbr.metallic_roughness_texture.is_some()
         || theirs.normal_texture.is_some()
         || theirs.occlusion_texture.is_some()
         || theirs.emissive_texture.is_some();
     if textures {
-        noticed.leave_out("textures", place);
+        noticed.leave_out("textures other than the base colour's", place);
     }
     let smooth = (1.0 - rough).powi(2);
     let lobe = ((2.0 / rough.powi(4).max(1e-6) - 2.0) / 4.0).clamp(1.0, 1000.0);

@@ -10,6 +10,7 @@ mod accessor;
 mod container;
 mod material;
 mod node;
+mod texture;
 
 use std::collections::BTreeMap;
 
@@ -22,7 +23,7 @@ use crate::document::{
     Transform, Warning,
 };
 use crate::error::{Flaw, Problem, shown};
-use crate::mesh::{Faces, Skipped, frame};
+use crate::mesh::{self, Faces, Skipped, frame, repeated};
 use crate::read::Around;
 use accessor::Data;
 
@@ -109,10 +110,13 @@ fn document(bytes: &[u8], around: &Around) -> Result<Document, Problem> {
     }
     let mut reader = Reader {
         data: Data::new(&root, parts.binary, around)?,
+        around,
         materials: Vec::new(),
+        sets: Vec::new(),
         plain: None,
         shapes: Vec::new(),
         skipped: BTreeMap::new(),
+        bare: 0,
         meshes: BTreeMap::new(),
         noticed,
         root: &root,
@@ -125,6 +129,9 @@ fn document(bytes: &[u8], around: &Around) -> Result<Document, Problem> {
     let mut noticed = reader.noticed;
     for (why, count) in reader.skipped {
         noticed.say(format!("{count} faces {}", why.message()));
+    }
+    if reader.bare > 0 {
+        noticed.say(mesh::bare(reader.bare));
     }
     if reader.shapes.is_empty() {
         let what = "a triangle with an area (in a mesh of a node of the scene)".into();
@@ -171,6 +178,8 @@ const NOWHERE: Camera = Camera {
 struct Part {
     positions: Vec<Point>,
     normals: Vec<Point>,
+    /// With v upwards, the file's goes down; none where the material has no picture.
+    uvs: Vec<[f64; 2]>,
     triangles: Vec<[usize; 3]>,
     material: Option<usize>,
 }
@@ -178,11 +187,16 @@ struct Part {
 struct Reader<'r> {
     root: &'r Root,
     data: Data<'r>,
+    around: &'r Around,
     materials: Vec<Material>,
+    /// Which coordinates place the picture of each material, if it has one.
+    sets: Vec<Option<u32>>,
     /// The material of primitives that name none.
     plain: Option<usize>,
     shapes: Vec<Shape>,
     skipped: BTreeMap<Skipped, usize>,
+    /// Faces that a picture should be on, and isn't.
+    bare: usize,
     /// Those that were read: nodes share them.
     meshes: BTreeMap<usize, Vec<Part>>,
     noticed: Noticed,
@@ -192,7 +206,12 @@ impl Reader<'_> {
     fn materials(&mut self) -> Result<(), Problem> {
         for (i, theirs) in self.root.materials.iter().enumerate() {
             let place = format!("materials[{i}]");
-            self.materials.push(material::read(theirs, &place, &mut self.noticed)?);
+            let mut material = material::read(theirs, &place, &mut self.noticed)?;
+            let around = (self.root, &self.data, self.around);
+            let map = texture::base_color(around, theirs, &place, &mut self.noticed)?;
+            self.sets.push(map.as_ref().map(|map| map.set));
+            material.texture = map.map(|map| map.texture);
+            self.materials.push(material);
         }
         Ok(())
     }
@@ -242,11 +261,18 @@ impl Reader<'_> {
                     let what = format!("nodes[{number}]: placed coordinate");
                     return Err(Problem::range(what, *x, format!("within ±{FARTHEST}")));
                 }
-                let faces = Faces::of(&positions, &normals);
+                let uvs = corners.iter().filter_map(|&i| part.uvs.get(i).copied()).collect();
+                let uvs = repeated(uvs);
+                if uvs.is_empty() && self.materials[material].texture.is_some() {
+                    self.bare += 1;
+                }
+                let faces = Faces::of(&positions, &normals, &uvs);
                 if let Some(why) = faces.skipped {
                     *self.skipped.entry(why).or_default() += 1;
                 }
-                let shape = |body: Body| Shape { body, material, uv: None, line: 0 };
+                let mut uvs = faces.uvs.into_iter();
+                let shape =
+                    |body: Body| Shape { body, material, uv: uvs.next().flatten(), line: 0 };
                 self.shapes.extend(faces.bodies.into_iter().map(shape));
             }
         }
@@ -294,7 +320,20 @@ impl Reader<'_> {
             indexed(&self.root.materials, index, &format!("{place}.material"), "materials")?;
         }
         let material = primitive.material.map(|index| index.value());
-        Ok(Some(Part { positions, normals, triangles: triangles(mode, &order), material }))
+        let set = material.and_then(|index| self.sets.get(index).copied().flatten());
+        let uvs = match set.and_then(|set| attribute(Semantic::TexCoords(set)).map(|i| (set, i))) {
+            Some((set, index)) => {
+                let at = format!("{place}.attributes.TEXCOORD_{set}");
+                let uvs = self.data.vectors::<2>(index, &at)?;
+                if uvs.len() != positions.len() {
+                    let right = format!("{}, as many as positions", positions.len());
+                    return Err(Problem::range(format!("{at} count"), uvs.len() as f64, right));
+                }
+                uvs.into_iter().map(|[u, v]| [u, 1.0 - v]).collect()
+            }
+            None => Vec::new(),
+        };
+        Ok(Some(Part { positions, normals, uvs, triangles: triangles(mode, &order), material }))
     }
 }
 

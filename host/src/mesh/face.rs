@@ -40,14 +40,9 @@ pub(crate) struct Faces {
 }
 
 impl Faces {
-    /// Of a face with these corners, and as many normals or none.
-    pub(crate) fn of(corners: &[Point], normals: &[Point]) -> Self {
-        Self::with_uvs(corners, normals, &[])
-    }
-
     /// Of a face with these corners, and as many normals or none, and as many texture coordinates
     /// or none: with these it becomes triangles, which alone have them.
-    pub(crate) fn with_uvs(corners: &[Point], normals: &[Point], uvs: &[[f64; 2]]) -> Self {
+    pub(crate) fn of(corners: &[Point], normals: &[Point], uvs: &[[f64; 2]]) -> Self {
         let flat = flat(corners, normals);
         let parts = match split(corners) {
             Ok(parts) => parts,

@@ -2,6 +2,8 @@
 
 mod face;
 mod frame;
+mod map;
 
 pub(crate) use face::{Faces, Skipped};
 pub(crate) use frame::frame;
+pub(crate) use map::{bare, repeated, texture};

@@ -17,7 +17,7 @@ use crate::document::{
     sub,
 };
 use crate::error::{Flaw, Problem};
-use crate::mesh::{Faces, Skipped, frame};
+use crate::mesh::{Faces, Skipped, frame, repeated};
 use crate::read::Around;
 use line::{Words, lines};
 
@@ -50,9 +50,6 @@ const WITHOUT: [(&str, &[&str]); 4] = [
 
 /// As far as texture coordinates may lie from the picture, which is repeated.
 const FARTHEST_UV: f64 = 1e6;
-
-/// As far as the core takes them.
-const FARTHEST_UV_HELD: f64 = 7.999;
 
 /// Words that are read.
 const WORDS: [&str; 9] = ["v", "vt", "vn", "f", "g", "o", "s", "mtllib", "usemtl"];
@@ -305,7 +302,7 @@ impl<'a> Reader<'a> {
             if textured && uvs.len() < corners.len() {
                 bare.get_or_insert((face.line, 0)).1 += 1;
             }
-            let faces = Faces::with_uvs(&corners, &normals, &uvs);
+            let faces = Faces::of(&corners, &normals, &uvs);
             if let Some(why) = faces.skipped {
                 skipped.entry(why).or_insert((face.line, 0)).1 += 1;
             }
@@ -332,7 +329,7 @@ impl<'a> Reader<'a> {
         }));
         warnings.extend(bare.map(|(line, count)| Warning {
             line,
-            text: format!("{count} faces with a map have no texture coordinates, or repeat it too often (this is the first)"),
+            text: format!("{} (this is the first)", crate::mesh::bare(count)),
         }));
         warnings.extend(self.without.into_iter().map(|(what, (line, count))| Warning {
             line,
@@ -389,16 +386,4 @@ impl<'a> Reader<'a> {
         }
         sums
     }
-}
-
-/// The same points of a picture that is repeated, as near to it as a face's can be moved together;
-/// none where that isn't near enough.
-fn repeated(mut uvs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    for axis in 0..2 {
-        let low = uvs.iter().map(|uv| uv[axis]).fold(f64::INFINITY, f64::min).floor();
-        if !(0.0..=1.0).contains(&low) && low.is_finite() {
-            uvs.iter_mut().for_each(|uv| uv[axis] -= low);
-        }
-    }
-    if uvs.as_flattened().iter().any(|x| x.abs() > FARTHEST_UV_HELD) { Vec::new() } else { uvs }
 }

@@ -12,13 +12,13 @@
 
 use std::collections::BTreeMap;
 
-use whitted::scene::{Filter, Mapping, Pattern, TextureSpec};
+use whitted::scene::{Filter, Wrap};
 
 use super::line::{Words, lines};
 use crate::document::{Material, Rgb, ShadowThrough, Texture, Warning};
 use crate::error::{Flaw, Problem, shown};
-use crate::flash;
-use crate::read::Around;
+use crate::mesh;
+use crate::read::{self, Around};
 
 /// What was read.
 pub(super) struct Library {
@@ -201,21 +201,26 @@ fn map(
     warnings: &mut Vec<Warning>,
 ) -> Result<Option<Texture>, Flaw> {
     let name = words.name("map_Kd")?;
-    let mut left_out = |why: String| {
+    let left_out = |warnings: &mut Vec<Warning>, why: String| {
         let text = format!("map_Kd \"{}\": {why}; its colour alone instead", shown(&name));
         warnings.push(Warning { line: words.line, text });
         Ok(None)
     };
     if name.starts_with('-') {
-        return left_out("options of maps (-s, -o, -clamp, …) aren't read".into());
+        return left_out(warnings, "options of maps (-s, -o, -clamp, …) aren't read".into());
     }
     let path = around.file_beside(&name);
-    let image = match flash::picture(&path, flash::MOST_COLORS) {
-        Ok(image) => image.with_filter(Filter::Bilinear),
-        Err(problem) => return left_out(problem.to_string()),
-    };
-    let spec = TextureSpec { mapping: Mapping::Uv, ..TextureSpec::of(Pattern::Image(image)) };
-    Ok(Some(Texture { spec, other: None, file: Some(path), line: words.line }))
+    let read = read::bytes(&path);
+    match read.and_then(|bytes| mesh::texture(&bytes, Filter::Bilinear, Wrap::Repeat)) {
+        Ok((spec, note)) => {
+            warnings.extend(note.map(|note| Warning {
+                line: words.line,
+                text: format!("map_Kd \"{}\": {note}", shown(&name)),
+            }));
+            Ok(Some(Texture { spec, other: None, file: Some(path), line: words.line }))
+        }
+        Err(problem) => left_out(warnings, problem.to_string()),
+    }
 }
 
 /// Three channels, or one for all.

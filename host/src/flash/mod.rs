@@ -1,17 +1,18 @@
 //! Pictures as they lie in flash: made of few colours, packed to few bits.
 
+mod decode;
+mod reduce;
+
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::BufReader;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use color_quant::NeuQuant;
-use png::{ColorType, Transformations};
 use whitted::scene::{Image, Texels};
 
 use crate::document::Size;
 use crate::error::Problem;
+use crate::read;
 
 /// The fewest colours that a picture of more can be reduced to: below, the quantiser's network is too
 /// small to learn.
@@ -19,55 +20,61 @@ pub const LEAST_COLORS: u32 = 16;
 /// The most colours of a palette.
 pub const MOST_COLORS: u32 = 256;
 
-/// Reads a PNG for a palette of so many colours. Transparency isn't looked at.
+/// As wide or as high as a mesh's picture gets: programs that make meshes give them pictures larger
+/// than a chip's flash.
+const MESH_SIDE: u32 = 256;
+
+/// A picture, its rows from the top.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Pixels {
+    width: u32,
+    height: u32,
+    /// On the sRGB curve.
+    colors: Vec<[u8; 3]>,
+}
+
+impl Pixels {
+    const fn size(&self) -> Size {
+        Size { width: self.width, height: self.height }
+    }
+}
+
+/// Reads a PNG or JPEG for a palette of so many colours. Transparency isn't looked at.
 ///
-/// The bytes stay in memory for the rest of the program, as a board's lie in flash, once for each file
-/// and number of colours.
+/// The bytes stay in memory for the rest of the program, as a board's lie in flash, once for each
+/// picture and number of colours.
 ///
 /// # Errors
-/// The file can't be read, is no PNG, or is larger than the core takes.
+/// The file can't be read, is no such picture, or is larger than the core takes.
 pub fn picture(path: &Path, most: u32) -> Result<Image<'static>, Problem> {
-    type Known = Mutex<HashMap<(PathBuf, u32, Vec<[u8; 3]>), Image<'static>>>;
+    kept(decode::decode(&read::bytes(path)?)?, most)
+}
+
+/// A mesh's picture out of a file's bytes, of [`MOST_COLORS`] and not larger than [`MESH_SIDE`]; and a
+/// word on its size where it was.
+pub(crate) fn of_mesh(bytes: &[u8]) -> Result<(Image<'static>, Option<String>), Problem> {
+    let pixels = decode::decode(bytes)?;
+    let before = pixels.size();
+    let pixels = reduce::reduced(pixels, MESH_SIDE);
+    let Size { width, height } = pixels.size();
+    let reduced = (width < before.width || height < before.height)
+        .then(|| format!("{}×{} pixels, reduced to {width}×{height}", before.width, before.height));
+    Ok((kept(pixels, MOST_COLORS)?, reduced))
+}
+
+/// The picture in memory that is never freed.
+fn kept(pixels: Pixels, most: u32) -> Result<Image<'static>, Problem> {
+    type Known = Mutex<HashMap<(Pixels, u32), Image<'static>>>;
     static KNOWN: OnceLock<Known> = OnceLock::new();
-    let (size, pixels) = read(path)?;
-    let key = (path.to_owned(), most, pixels);
+    let key = (pixels, most);
     let mut known =
         KNOWN.get_or_init(Known::default).lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(image) = known.get(&key) {
         return Ok(*image);
     }
-    let image = packed(size, &key.2, most)?;
+    let image = packed(key.0.size(), &key.0.colors, most)?;
     known.insert(key, image);
     Ok(image)
-}
-
-fn read(path: &Path) -> Result<(Size, Vec<[u8; 3]>), Problem> {
-    let file = File::open(path).map_err(Problem::Io)?;
-    if file.metadata().map_err(Problem::Io)?.is_dir() {
-        return Err(Problem::Directory);
-    }
-    let bad = |error: png::DecodingError| Problem::Syntax(format!("is no picture in PNG: {error}"));
-    let mut decoder = png::Decoder::new(BufReader::new(file));
-    decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);
-    let mut reader = decoder.read_info().map_err(bad)?;
-    let info = reader.info();
-    let size = Size { width: info.width, height: info.height };
-    for side in [size.width, size.height] {
-        if side > Size::LARGEST {
-            let right = format!("at most {}", Size::LARGEST);
-            return Err(Problem::range("side of the picture", f64::from(side), right));
-        }
-    }
-    let Some(bytes) = reader.output_buffer_size() else {
-        return Err(Problem::Syntax("is larger than the memory".into()));
-    };
-    let mut buffer = vec![0; bytes];
-    let frame = reader.next_frame(&mut buffer).map_err(bad)?;
-    let samples = frame.color_type.samples();
-    let grey = matches!(frame.color_type, ColorType::Grayscale | ColorType::GrayscaleAlpha);
-    let color = |s: &[u8]| if grey { [s[0]; 3] } else { [s[0], s[1], s[2]] };
-    let pixels = buffer[..frame.buffer_size()].chunks_exact(samples).map(color);
-    Ok((size, pixels.collect()))
 }
 
 /// The picture in as few bits as its colours take, or as the wanted number does.
