@@ -36,12 +36,11 @@ pub(crate) fn root(report: &mut Report) {
     step(report, "documentation", &root, "doc -q --workspace --no-deps");
 }
 
-/// Formatting, clippy and rustdoc of firmware, for every chip. In release, as it is built later: build
-/// scripts and what they need are compiled once.
+/// Formatting, clippy and rustdoc of firmware, for every chip.
 pub(crate) fn boards(report: &mut Report) {
     let boards = shell::boards();
     let clippy = |report: &mut Report, name: &str, dir: &Path, words: &str| {
-        let words = format!("clippy -q --release {words}");
+        let words = format!("clippy -q {words}");
         step(report, &format!("clippy, {name}"), dir, words.trim_end());
     };
     step(report, "format, boards", &boards, "fmt --all --check");
@@ -89,16 +88,11 @@ pub(crate) fn boards(report: &mut Report) {
     step(report, "format, template", &template, "fmt --all --check");
     let words = "--locked --target-dir ../boards/target";
     clippy(report, "template", &template, words);
-    step(report, "template: it links", &template, &format!("build -q --release {words}"));
+    step(report, "template: it links", &template, &format!("build -q {words}"));
     for name in ["nopanic", "size"] {
         clippy(report, name, &boards, &format!("--package {name} --target thumbv6m-none-eabi"));
     }
-    step(
-        report,
-        "documentation, demo",
-        &boards,
-        "doc -q --release --package whitted-demo --no-deps",
-    );
+    step(report, "documentation, demo", &boards, "doc -q --package whitted-demo --no-deps");
 }
 
 /// The tests of the host's workspace.
