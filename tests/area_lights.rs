@@ -2,11 +2,9 @@
 //!
 //! A surface of albedo 1 under a light of radiance 1 sends back the light's form factor.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{radiance, toward};
+use crate::common::{radiance, toward};
 use whitted::gather::{Gatherer, Gathering, GatheringSpec, Indirect, Record};
 use whitted::math::Fixed;
 use whitted::scene::{

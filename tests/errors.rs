@@ -1,10 +1,8 @@
 //! Every error of the core's constructors, with its words, in all three arithmetics where it is
 //! the same.
 
-mod common;
-
-use common::make::{Body, Make, Shapes};
-use common::scenes::{CAMERA, SCENE};
+use crate::common::make::{Body, Make, Shapes};
+use crate::common::scenes::{CAMERA, SCENE};
 use whitted::frame::{FrameError, Renderer, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::octree::{BuildError, Cube, Extent, Limits, OctreeBuffer, TreeError, build_into};

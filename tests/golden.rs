@@ -1,12 +1,10 @@
 //! Checksums of small pictures in all three arithmetics: a change that was meant to leave every
 //! bit alone shows here if it doesn't.
 //!
-//! Where a change of bits is meant, look at the pictures first (`cargo test --test pictures
-//! --test precision` say more than a checksum), then paste the table that a failure prints.
+//! Where a change of bits is meant, look at the pictures first (`cargo test --test all --
+//! pictures:: precision::` say more than a checksum), then paste the table that a failure prints.
 
-mod common;
-
-use common::scenes::{Shot, Shots};
+use crate::common::scenes::{Shot, Shots};
 use whitted::frame::{Renderer, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::scene::Scene;

@@ -1,11 +1,9 @@
 //! Groups placed in a scene: the same as their shapes written out.
 
-mod common;
-
-use common::make::{Body, Make, Shapes, body};
-use common::random::Random;
-use common::scenes::{double, fixed, single};
-use common::{FromF64, ray};
+use crate::common::make::{Body, Make, Shapes, body};
+use crate::common::random::Random;
+use crate::common::scenes::{double, fixed, single};
+use crate::common::{FromF64, ray};
 use whitted::frame::{Renderer, Settings};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::octree::Limits;
@@ -265,7 +263,7 @@ fn patterns_move_along_and_materials_can_be_overridden() {
             ..Parts::EMPTY
         };
         let scene = Scene::new(parts).expect("a scene");
-        common::radiance(&scene, 1, [x, 0.25, -5.0], [0.0, 0.0, 1.0])[0]
+        crate::common::radiance(&scene, 1, [x, 0.25, -5.0], [0.0, 0.0, 1.0])[0]
     };
     let still = Instance::<f64>::new(&group, Transform::IDENTITY);
     assert_eq!([0.5, 1.5].map(|x| seen(still, x)), [1.0, 2.0]);

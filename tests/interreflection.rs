@@ -1,7 +1,5 @@
 //! Diffuse interreflection against a path tracer, and the same bits whatever the order.
 
-mod common;
-
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::gather::VirtualLightSpec;
 use whitted::gather::{Draft, FillError, Gatherer, Gathering, GatheringSpec, Indirect, Record};

@@ -1,10 +1,8 @@
 //! Lights give the same bits whatever was traced before: random points on areas come from the
 //! pixel, and a remembered occluder changes how soon a shadow ray is answered, not how.
 
-mod common;
-
-use common::make::{Make, Shapes, body};
-use common::random::Random;
+use crate::common::make::{Make, Shapes, body};
+use crate::common::random::Random;
 use whitted::frame::{Renderer, Settings};
 use whitted::math::Fixed;
 use whitted::octree::Limits;
@@ -27,7 +25,7 @@ fn heap<A: Make>(seed: u64, selection: Selection<A>, then: &mut dyn FnMut(&Scene
         bodies.push((body(&mut random, kind, p, size), 0));
     }
     // The first sphere is a lamp.
-    bodies.insert(0, (common::make::Body::Sphere([0.5, 5.0, -2.0], 0.6), 1));
+    bodies.insert(0, (crate::common::make::Body::Sphere([0.5, 5.0, -2.0], 0.6), 1));
     let mut shapes = Shapes::<A>::of(&bodies, -16);
     shapes.grow(Limits::DEFAULT);
     let spec = MaterialSpec {

@@ -1,9 +1,7 @@
 //! Asking fewer lights: which are left out, and that the mean of a random choice is right.
 
-mod common;
-
-use common::FromF64;
-use common::make::Make;
+use crate::common::FromF64;
+use crate::common::make::Make;
 use whitted::math::Fixed;
 use whitted::scene::{
     Area, AreaLight, AreaLightSpec, Falloff, Light, LightSpec, Material, MaterialSpec, Parts,
@@ -71,7 +69,7 @@ macro_rules! scene {
 
 /// The radiance of the floor at the origin for a key, and what it took.
 fn look<A: FromF64>(scene: &Scene<'_, A>, key: u32) -> ([f64; 3], Counts) {
-    let ray = common::ray([-0.4, 0.9, -0.3], [0.4, -0.9, 0.3]);
+    let ray = crate::common::ray([-0.4, 0.9, -0.3], [0.4, -0.9, 0.3]);
     let mut work = Work::<A, 1>::new();
     let mut counts = Counts::default();
     let radiance = Tracer::new(scene, 1).with_key(key).radiance(ray, &mut work, &mut counts);
@@ -151,7 +149,7 @@ fn a_threshold_leaves_out_what_would_add_less() {
     let parts = Parts { planes: &planes, materials: &materials, lights: &lights, ..Parts::EMPTY };
     let at = |selection| {
         let scene = Scene::<f64>::checked(Parts { selection, ..parts });
-        let ray = common::ray([0.0, 0.5, 0.0], [0.0, -1.0, 0.0]);
+        let ray = crate::common::ray([0.0, 0.5, 0.0], [0.0, -1.0, 0.0]);
         let (mut work, mut counts) = (Work::<f64, 1>::new(), Counts::default());
         let radiance = Tracer::new(&scene, 1).radiance(ray, &mut work, &mut counts);
         (radiance[0], counts.shadow)

@@ -1,11 +1,9 @@
 //! Nothing panics: random scenes and rays at the limits of the ranges, with overflow checks on
 //! (as tests are built). What is drawn there may be anything, but it is drawn.
 
-mod common;
-
-use common::FromF64;
-use common::make::{Body, Make, Shapes, body};
-use common::random::Random;
+use crate::common::FromF64;
+use crate::common::make::{Body, Make, Shapes, body};
+use crate::common::random::Random;
 use whitted::frame::{Gray4, Output, Renderer, Rgb565, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::octree::{BuildError, Limits};
@@ -211,7 +209,7 @@ fn draw<A: FromF64>(
     let mut band = [0; 40];
     renderer.band::<Gray4>(0, &Output::DITHERED, &mut band);
     for _ in 0..40 {
-        renderer.radiance(&common::ray(point(random), random.direction()));
+        renderer.radiance(&crate::common::ray(point(random), random.direction()));
     }
     *renderer.tally()
 }

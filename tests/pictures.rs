@@ -4,9 +4,7 @@
 //! about twice as high as wide, so cameras here squeeze the picture. To renew one, look at what a
 //! failure prints, and paste it once it is what should be seen.
 
-mod common;
-
-use common::make::{Body, Make, Shapes};
+use crate::common::make::{Body, Make, Shapes};
 use whitted::frame::{Gray4, Output, Renderer, Settings};
 use whitted::math::Fixed;
 use whitted::scene::{Falloff, LightSpec, MaterialSpec, Parts, PatternSpec, Rules, Scene};

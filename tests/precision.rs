@@ -3,9 +3,7 @@
 //! Taken on 8-bit sRGB (or on what the scene says its display values are), at one ray a pixel and
 //! at 4×4: there the picture is rendered four times as large and linear radiance averaged.
 
-mod common;
-
-use common::scenes::{Shot, Shots};
+use crate::common::scenes::{Shot, Shots};
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::trace::{Tracer, Work};

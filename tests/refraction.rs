@@ -4,9 +4,7 @@
 //! the index n, the components along a flat wall stay, and the one across it follows from the length.
 //! No formula of the tracer's is used.
 
-mod common;
-
-use common::{FromF64, ray};
+use crate::common::{FromF64, ray};
 use whitted::math::{Arithmetic, Fixed, Rgb};
 use whitted::scene::{Material, MaterialSpec, Parts, Rules, Scene};
 use whitted::shape::{Cuboid, Ray};

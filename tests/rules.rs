@@ -1,9 +1,7 @@
 //! Facts about the tree of rays: which rays are sent, which shape counts, what is counted.
 
-mod common;
-
-use common::make::{Body, Make, Shapes};
-use common::{radiance, ray, weight};
+use crate::common::make::{Body, Make, Shapes};
+use crate::common::{radiance, ray, weight};
 use whitted::frame::{FrameError, Renderer, Sample, Sampling, Settings};
 use whitted::math::Fixed;
 use whitted::scene::{Background, Falloff, LightSpec, MaterialSpec, Parts, Rules, Scene};

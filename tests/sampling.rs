@@ -1,9 +1,7 @@
 //! What each sampling gives for its rays. `docs/sampling.md` has the figures.
 
-mod common;
-
-use common::make::{Body, Make, Shapes};
-use common::scenes::{Shot, Shots};
+use crate::common::make::{Body, Make, Shapes};
+use crate::common::scenes::{Shot, Shots};
 use whitted::frame::{Output, Passes, Progress, Renderer, Rgb888, Sample, Sampling, Settings};
 use whitted::math::{Arithmetic, Fixed, Rgb};
 use whitted::scene::{Camera, MaterialSpec, Parts, Scene};

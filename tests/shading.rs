@@ -1,8 +1,6 @@
 //! Facts about the shading model, each computed by hand, in all three arithmetics.
 
-mod common;
-
-use common::{radiance, toward};
+use crate::common::{radiance, toward};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::scene::{
     Ambient, Background, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, PatternSpec,
@@ -178,7 +176,7 @@ for_all! {
             close::<A>(radiance(&scene, depth, [0.0, 1.0, 0.0], DOWN), [exact; 3], tol);
         }
         // 2⁻⁷ ≥ 1/255 > 2⁻⁸: all eight generations pass; 1/100 stops after 2⁻⁶
-        let cutoff = common::weight::<A>(0.01);
+        let cutoff = crate::common::weight::<A>(0.01);
         let scene = Scene::<A>::checked(Parts { rules: Rules { cutoff, ..parts.rules }, ..parts });
         close::<A>(radiance(&scene, 8, [0.0, 1.0, 0.0], DOWN), [2.0 - 0.5f64.powi(6); 3], tol);
     }

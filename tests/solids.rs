@@ -1,10 +1,8 @@
 //! Solids made of several shapes, and caps: against the plain question whether a point is inside.
 
-mod common;
-
-use common::make::Make;
-use common::random::Random;
-use common::ray;
+use crate::common::make::Make;
+use crate::common::random::Random;
+use crate::common::ray;
 use whitted::math::Fixed;
 use whitted::octree::{Cube, Extent, Limits, Octree, build_into};
 use whitted::scene::{MaterialSpec, Parts, Scene, SceneError};

@@ -1,8 +1,6 @@
 //! The three ways a picture leaves: all give the same pixels, and no more rays than are shown.
 
-mod common;
-
-use common::scenes::{CAMERA, SCENE};
+use crate::common::scenes::{CAMERA, SCENE};
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor as eg;
 use embedded_graphics::prelude::*;

@@ -1,9 +1,7 @@
 //! Facts about surface detail, each by hand, in all three arithmetics: textures, bumps, Fresnel's
 //! weights, absorption. And what each pattern looks like, as text.
 
-mod common;
-
-use common::{FromF64, radiance};
+use crate::common::{FromF64, radiance};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::scene::{
     Absorption, Ambient, Background, Filter, Image, Light, LightSpec, Mapping, Material,

@@ -1,9 +1,7 @@
 //! Scenes whose types say what they use: the same bits as with all the code there is, and no scene
 //! that uses more than its type says.
 
-mod common;
-
-use common::scenes::{Shot, Shots, Tailored, double, fixed, single};
+use crate::common::scenes::{Shot, Shots, Tailored, double, fixed, single};
 use whitted::frame::{Renderer, Settings};
 use whitted::math::{Arithmetic, Fixed, Rgb};
 use whitted::scene::{Camera, Scene, SceneError};

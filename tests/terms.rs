@@ -1,8 +1,6 @@
 //! Terms of radiance: the pictures of each add up to the whole.
 
-mod common;
-
-use common::scenes::{Shot, Shots};
+use crate::common::scenes::{Shot, Shots};
 use whitted::frame::{FrameError, Renderer, Settings};
 use whitted::math::Fixed;
 use whitted::scene::{Parts, Scene, uses};

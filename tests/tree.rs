@@ -1,12 +1,10 @@
 //! An octree changes how long a picture takes, and not a bit of it: whole scenes of all shapes
 //! with a tree against the same scenes without one.
 
-mod common;
-
-use common::make::{Body, Make, Shapes, body};
-use common::random::Random;
-use common::scenes::{double, fixed, single};
-use common::{ray, weight};
+use crate::common::make::{Body, Make, Shapes, body};
+use crate::common::random::Random;
+use crate::common::scenes::{double, fixed, single};
+use crate::common::{ray, weight};
 use whitted::frame::{Renderer, Settings};
 use whitted::math::Fixed;
 use whitted::octree::{Limits, build_into};

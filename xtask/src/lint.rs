@@ -4,10 +4,7 @@ use std::path::Path;
 
 use crate::machine::MACHINES;
 use crate::report::Report;
-use crate::shell::{self, boards, cargo, root};
-
-/// Nothing may warn.
-const STRICT: [&str; 3] = ["--", "-D", "warnings"];
+use crate::shell::{self, cargo};
 
 /// The Pico's displays, and its log.
 const PICO: [&str; 5] = [
@@ -18,80 +15,96 @@ const PICO: [&str; 5] = [
     "ili9341-320x240,rtt",
 ];
 
-/// Formatting, clippy and rustdoc, on the host and for every chip.
-pub(crate) fn check(report: &mut Report) {
-    let mut step = |name: &str, dir: &Path, words: &str, strict: bool| {
-        let args = words.split(' ').chain(STRICT.into_iter().take(if strict { 3 } else { 0 }));
-        report.check(name, || shell::run(cargo(dir, args).env("RUSTDOCFLAGS", "-D warnings")));
-    };
-    let (root, boards) = (root(), boards());
-    step("format", &root, "fmt --all --check", false);
-    step("format, boards", &boards, "fmt --all --check", false);
-    step("clippy, host", &root, "clippy -q --workspace --all-targets", true);
+/// Runs cargo as a check.
+fn step(report: &mut Report, name: &str, dir: &Path, words: &str) {
+    // Nothing may warn.
+    let strict: &[&str] = if words.starts_with("clippy") { &["--", "-D", "warnings"] } else { &[] };
+    let args = words.split(' ').chain(strict.iter().copied());
+    report.check(name, || shell::run(cargo(dir, args).env("RUSTDOCFLAGS", "-D warnings")));
+}
+
+/// Formatting, clippy and rustdoc of the library, on the host and for chips, and of what is built
+/// for the host.
+pub(crate) fn root(report: &mut Report) {
+    let root = shell::root();
+    step(report, "format", &root, "fmt --all --check");
+    step(report, "clippy, host", &root, "clippy -q --workspace --all-targets");
     for target in ["thumbv6m-none-eabi", "thumbv7em-none-eabihf"] {
         let words = format!("clippy -q --package whitted --target {target}");
-        step(&format!("clippy, library, {target}"), &root, &words, true);
+        step(report, &format!("clippy, library, {target}"), &root, &words);
     }
-    step("clippy, demo", &boards, "clippy -q --package whitted-demo --all-targets", true);
+    step(report, "documentation", &root, "doc -q --workspace --no-deps");
+}
+
+/// Formatting, clippy and rustdoc of firmware, for every chip.
+pub(crate) fn boards(report: &mut Report) {
+    let boards = shell::boards();
+    let clippy = |report: &mut Report, name: &str, dir: &Path, words: &str| {
+        let words = format!("clippy -q {words}");
+        step(report, &format!("clippy, {name}"), dir, words.trim_end());
+    };
+    step(report, "format, boards", &boards, "fmt --all --check");
+    clippy(report, "demo", &boards, "--package whitted-demo --all-targets");
     let mut seen = Vec::new();
     for machine in &MACHINES {
         if seen.contains(&(machine.board, machine.target)) {
             continue;
         }
         seen.push((machine.board, machine.target));
-        let name = format!("clippy, {}, {}", machine.board, machine.target);
-        let words = format!("clippy -q --target {}", machine.target);
+        let name = format!("{}, {}", machine.board, machine.target);
         // In the board's directory: its own settings hold only there.
-        step(&name, &boards.join(machine.board), &words, true);
+        let words = format!("--target {}", machine.target);
+        clippy(report, &name, &boards.join(machine.board), &words);
     }
     for features in PICO {
-        let name = format!("clippy, pico, {features}");
-        let words = format!("clippy -q --no-default-features --features {features}");
-        step(&name, &boards.join("pico"), &words, true);
+        let words = format!("--no-default-features --features {features}");
+        clippy(report, &format!("pico, {features}"), &boards.join("pico"), &words);
     }
     for chip in ["f411", "f405"] {
-        let words = format!("clippy -q --no-default-features --features {chip}");
-        step(&format!("clippy, stm32f4, {chip}"), &boards.join("stm32f4"), &words, true);
+        let words = format!("--no-default-features --features {chip}");
+        clippy(report, &format!("stm32f4, {chip}"), &boards.join("stm32f4"), &words);
     }
-    let bands = "clippy -q --package whitted-bands --all-targets";
-    step("clippy, bands", &boards, bands, true);
-    for board in ["pico-async", "microbit-v2"] {
-        step(&format!("clippy, {board}"), &boards.join(board), "clippy -q", true);
+    clippy(report, "bands", &boards, "--package whitted-bands --all-targets");
+    for board in ["pico-async", "microbit-v2", "room"] {
+        clippy(report, board, &boards.join(board), "");
     }
-    step("clippy, room", &boards.join("room"), "clippy -q", true);
     // A workspace of its own.
     let pico2 = boards.join("pico2");
-    step("format, pico2", &pico2, "fmt --all --check", false);
+    step(report, "format, pico2", &pico2, "fmt --all --check");
     for (target, features) in [
         ("thumbv8m.main-none-eabihf", "rtt,st7789-240x240"),
         ("thumbv8m.main-none-eabihf", "one-core,fixed,st7735s-160x80"),
         ("riscv32imac-unknown-none-elf", "rtt,st7789-240x240"),
     ] {
         let words = format!(
-            "clippy -q --locked --target-dir ../target --target {target} --no-default-features \
+            "--locked --target-dir ../target --target {target} --no-default-features \
              --features {features}"
         );
-        step(&format!("clippy, pico2, {target}, {features}"), &pico2, &words, true);
+        clippy(report, &format!("pico2, {target}, {features}"), &pico2, &words);
     }
     // What people copy: its own workspace, and its own lock file, which must hold. It shares what
     // the boards have built.
-    let template = root.join("template");
-    step("format, template", &template, "fmt --all --check", false);
-    step("clippy, template", &template, "clippy -q --locked --target-dir ../boards/target", true);
-    step("template: it links", &template, "build -q --locked --target-dir ../boards/target", false);
+    let template = shell::root().join("template");
+    step(report, "format, template", &template, "fmt --all --check");
+    let words = "--locked --target-dir ../boards/target";
+    clippy(report, "template", &template, words);
+    step(report, "template: it links", &template, &format!("build -q {words}"));
     for name in ["nopanic", "size"] {
-        let words = format!("clippy -q --package {name} --target thumbv6m-none-eabi");
-        step(&format!("clippy, {name}"), &boards, &words, true);
+        clippy(report, name, &boards, &format!("--package {name} --target thumbv6m-none-eabi"));
     }
-    step("documentation", &root, "doc -q --workspace --no-deps", false);
-    step("documentation, demo", &boards, "doc -q --package whitted-demo --no-deps", false);
+    step(report, "documentation, demo", &boards, "doc -q --package whitted-demo --no-deps");
 }
 
-/// The tests of the host's workspace, and of the part of the firmware that runs anywhere.
+/// The tests of the host's workspace.
 pub(crate) fn host_tests(report: &mut Report) {
-    tests(report, "host tests", &root(), &["test", "--workspace", "--no-fail-fast"]);
-    tests(report, "tests of demo", &boards(), &["test", "--package", "whitted-demo"]);
-    tests(report, "tests of bands", &boards(), &["test", "--package", "whitted-bands"]);
+    tests(report, "host tests", &shell::root(), &["test", "--workspace", "--no-fail-fast"]);
+}
+
+/// The tests of those parts of the firmware that run anywhere.
+pub(crate) fn boards_tests(report: &mut Report) {
+    let boards = shell::boards();
+    tests(report, "tests of demo", &boards, &["test", "--package", "whitted-demo"]);
+    tests(report, "tests of bands", &boards, &["test", "--package", "whitted-bands"]);
 }
 
 fn tests(report: &mut Report, name: &str, dir: &Path, args: &[&str]) {

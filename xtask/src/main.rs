@@ -28,7 +28,7 @@ use report::Report;
 const USAGE: &str = "\
 cargo xtask setup                          install what the rest needs
 cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
-                                           lint, host, nopanic, boards, pico
+                                           lint, host, nopanic, boards, pico, pico2
 cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
                                            --check compares with it instead
 cargo xtask bench --stages [SCENE|JOB]… [--machine M] [--flame FILE.svg] [--folded FILE]
@@ -52,7 +52,7 @@ fn main() -> ExitCode {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let done = match args.as_slice() {
         ["setup"] => setup::run().and_then(|()| setup::python().map(drop)),
-        ["test", options @ ..] => groups(options).and_then(|groups| test(&groups)),
+        ["test", options @ ..] => chosen(options).and_then(|names| test(&names)),
         ["bench", "--stages", options @ ..] => {
             stages::Options::read(options).and_then(|o| stages::run(&o))
         }
@@ -61,7 +61,7 @@ fn main() -> ExitCode {
         ["emulate", "pico2", options @ ..] => pico2::run(options),
         ["picture", words @ ..] => picture::run(words),
         ["stack"] => stack::run(),
-        ["nopanic"] => setup::run().and_then(|()| summary(nopanic::check)),
+        ["nopanic"] => test(&["nopanic"]),
         ["pov", words @ ..] => pov::run(words),
         ["compare", words @ ..] => compare::run(words),
         _ => Err(USAGE.into()),
@@ -76,42 +76,53 @@ fn main() -> ExitCode {
 }
 
 /// Checks that belong together.
-type Group = fn(&mut Report);
+struct Group {
+    name: &'static str,
+    check: fn(&mut Report),
+}
 
-/// The groups, in the order they run.
-const GROUPS: [(&str, Group); 6] = [
-    ("lint", lint::check),
-    ("host", lint::host_tests),
-    ("nopanic", nopanic::check),
-    ("boards", firmware::check),
-    ("pico", pico::check),
-    ("pico2", pico2::check),
+/// Those that build in the root's workspace, in the order they run.
+const ROOT: [Group; 2] =
+    [Group { name: "lint", check: lint::root }, Group { name: "host", check: lint::host_tests }];
+
+/// Those that build in the boards' workspace. A group may have a part in either.
+const BOARDS: [Group; 6] = [
+    Group { name: "lint", check: lint::boards },
+    Group { name: "host", check: lint::boards_tests },
+    Group { name: "nopanic", check: nopanic::check },
+    Group { name: "boards", check: firmware::check },
+    Group { name: "pico", check: pico::check },
+    Group { name: "pico2", check: pico2::check },
 ];
 
-/// The groups that `--only` names, or all.
-fn groups(options: &[&str]) -> Result<Vec<Group>, String> {
-    if options.is_empty() {
-        return Ok(GROUPS.iter().map(|group| group.1).collect());
-    }
+/// The names that `--only` gives; none for all groups.
+fn chosen<'a>(options: &[&'a str]) -> Result<Vec<&'a str>, String> {
     let (pairs, rest) = options.as_chunks::<2>();
     if !rest.is_empty() || pairs.iter().any(|[option, _]| *option != "--only") {
         return Err(USAGE.into());
     }
-    let find = |name: &str| GROUPS.iter().find(|group| group.0 == name).map(|group| group.1);
-    pairs
-        .iter()
-        .map(|[_, name]| find(name).ok_or_else(|| format!("no group `{name}`\n{USAGE}")))
-        .collect()
+    let known = |name: &str| ROOT.iter().chain(&BOARDS).any(|group| group.name == name);
+    match pairs.iter().find(|[_, name]| !known(name)) {
+        Some([_, name]) => Err(format!("no group `{name}`\n{USAGE}")),
+        None => Ok(pairs.iter().map(|[_, name]| *name).collect()),
+    }
 }
 
-fn test(groups: &[Group]) -> Result<(), String> {
+fn test(names: &[&str]) -> Result<(), String> {
     setup::run()?;
-    summary(|report| groups.iter().for_each(|group| group(report)))
-}
-
-/// Runs checks and ends with the line of their numbers.
-fn summary(checks: impl FnOnce(&mut Report)) -> Result<(), String> {
-    let mut report = Report::default();
-    checks(&mut report);
+    let wanted = |group: &&Group| names.is_empty() || names.contains(&group.name);
+    let run = |groups: &[Group]| {
+        let mut report = Report::default();
+        groups.iter().filter(wanted).for_each(|group| (group.check)(&mut report));
+        report
+    };
+    // Firmware is linked by one thread for minutes: the other core tests the host meanwhile.
+    let (boards, root) = std::thread::scope(|scope| {
+        let boards = scope.spawn(|| run(&BOARDS));
+        let root = run(&ROOT);
+        (boards.join(), root)
+    });
+    let mut report = root;
+    report.merge(boards.map_err(|_| "the boards' checks panicked")?);
     report.finish()
 }

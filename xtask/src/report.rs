@@ -44,6 +44,13 @@ impl Report {
         }
     }
 
+    /// Adds another report's numbers.
+    pub(crate) fn merge(&mut self, other: Self) {
+        self.passed += other.passed;
+        self.failed += other.failed;
+        self.names.extend(other.names);
+    }
+
     /// Prints the summary; an error if anything failed.
     pub(crate) fn finish(self) -> Result<(), String> {
         for name in &self.names {
