@@ -62,6 +62,8 @@ pub mod frame;
 pub mod gather;
 pub mod math;
 pub mod octree;
+#[cfg(test)]
+mod page;
 pub mod scene;
 pub mod shape;
 pub mod tally;

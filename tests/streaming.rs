@@ -331,6 +331,6 @@ fn what_does_not_fit_is_said_when_the_renderer_is_made() {
 #[test]
 fn working_memory_is_bounded() {
     // The README gives the first.
-    assert!(size_of::<Work<Fixed, 5>>() <= 1056, "{}", size_of::<Work<Fixed, 5>>());
-    assert!(size_of::<Work<Fixed, 8>>() <= 1216, "{}", size_of::<Work<Fixed, 8>>());
+    assert!(size_of::<Work<Fixed, 5>>() <= 932, "{}", size_of::<Work<Fixed, 5>>());
+    assert!(size_of::<Work<Fixed, 8>>() <= 1076, "{}", size_of::<Work<Fixed, 8>>());
 }

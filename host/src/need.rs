@@ -5,7 +5,7 @@ use whitted::tally::Counts;
 use whitted::trace::Work;
 
 use crate::bake::{Baked, Construct};
-use crate::document::Size;
+use crate::document::{Indirect, Size};
 use crate::error::Flaw;
 use crate::render::{Sampling, Settings, render};
 
@@ -94,6 +94,8 @@ pub struct Pixel {
     pub nodes: f64,
     /// Shapes tested.
     pub tests: f64,
+    /// Surfaces for which the irradiance cache is asked, at most.
+    pub lookups: f64,
 }
 
 /// Counts on a small picture, one ray a pixel, what a pixel takes.
@@ -103,8 +105,11 @@ pub struct Pixel {
 pub fn pixel<A: Construct>(baked: &Baked<A>, size: Size, depth: u8) -> Result<Pixel, Flaw> {
     let longer = f64::from(size.width.max(size.height));
     let side = |side: u32| ((f64::from(side) * f64::from(TRIAL) / longer) as u32).max(1);
+    // A cache takes its time to fill, and no rays afterwards.
+    let indirect = baked.document().indirect;
+    let virtual_lights = indirect.filter(|it| matches!(it, Indirect::VirtualLights(_)));
     let settings = Settings {
-        indirect: None,
+        indirect: virtual_lights,
         size: Size { width: side(size.width), height: side(size.height) },
         depth,
         sampling: Sampling::Center,
@@ -119,6 +124,10 @@ pub fn pixel<A: Construct>(baked: &Baked<A>, size: Size, depth: u8) -> Result<Pi
         shadow: a_pixel(shadow),
         nodes: a_pixel(nodes),
         tests: a_pixel(tests),
+        lookups: match indirect {
+            Some(Indirect::Cache(_)) => a_pixel(counts.rays() - shadow),
+            _ => 0.0,
+        },
     })
 }
 
@@ -133,6 +142,8 @@ pub struct Core {
     pub test: f64,
     /// For each node of the octree visited.
     pub node: f64,
+    /// For a surface's irradiance out of some hundred records (`docs/interreflection.md`).
+    pub lookup: f64,
 }
 
 impl Core {
@@ -142,6 +153,7 @@ impl Core {
             + self.ray * (pixel.rays + pixel.shadow)
             + self.test * pixel.tests
             + self.node * pixel.nodes
+            + self.lookup * pixel.lookups
     }
 }
 
@@ -176,9 +188,9 @@ pub const RESERVE: usize = 6 * KIB;
 // Instructions of the scenes there, limit to bathroom, fitted within a fifth, times cycles an
 // instruction: 1.33 as counted on the emulated RP2040; 1.3 and 1.2, as assumed, on the others. Shapes
 // other than spheres stand in trees, in which nodes therefore weigh more than they are.
-const M0_PLUS: Core = Core { pixel: 400.0, ray: 400.0, test: 126.0, node: 800.0 };
-const M3: Core = Core { pixel: 325.0, ray: 286.0, test: 75.0, node: 500.0 };
-const M4F: Core = Core { pixel: 145.0, ray: 145.0, test: 43.0, node: 340.0 };
+const M0_PLUS: Core = Core { pixel: 400.0, ray: 400.0, test: 126.0, node: 800.0, lookup: 9200.0 };
+const M3: Core = Core { pixel: 325.0, ray: 286.0, test: 75.0, node: 500.0, lookup: 6900.0 };
+const M4F: Core = Core { pixel: 145.0, ray: 145.0, test: 43.0, node: 340.0, lookup: 4400.0 };
 
 /// The boards that the documentation names.
 pub const BOARDS: [Board; 8] = [
@@ -258,8 +270,9 @@ pub const BOARDS: [Board; 8] = [
 
 #[cfg(test)]
 mod tests {
-    use super::{flash, memory};
+    use super::{M3, Pixel, flash, memory, pixel};
     use crate::bake::Baked;
+    use crate::document::Size;
     use crate::read::{Format, parse};
     use whitted::math::Fixed;
 
@@ -280,5 +293,23 @@ mod tests {
         assert_eq!(memory::<Fixed>(8) - memory::<Fixed>(5), 3 * step);
         // The budget is 4 KiB for five levels, without rows.
         assert!(memory::<Fixed>(5) <= 4096);
+    }
+
+    #[test]
+    fn interreflection_has_its_price() {
+        let text = std::str::from_utf8(include_bytes!("../scenes/showcase.toml")).unwrap();
+        let size = Size { width: 64, height: 48 };
+        let count = |more: &str| {
+            let text = format!("{text}\n[indirect]\n{more}");
+            let baked =
+                Baked::<Fixed>::new(&parse(Format::Toml, text.as_bytes()).unwrap()).unwrap();
+            pixel(&baked, size, 3).unwrap()
+        };
+        let cache = count("type = \"cache\"");
+        let lights = count("type = \"virtual-lights\"\nlights = 16\ntile = 1");
+        assert!(cache.lookups > 0.9 && lights.lookups == 0.0);
+        assert!(lights.shadow > cache.shadow + 4.0, "{lights:?} {cache:?}");
+        let (with, without) = (M3.cycles(&cache), M3.cycles(&Pixel { lookups: 0.0, ..cache }));
+        assert!((with - without - M3.lookup * cache.lookups).abs() < 1e-6);
     }
 }

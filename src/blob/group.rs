@@ -160,7 +160,7 @@ pub(super) fn write_solids<A: Arithmetic>(shapes: &Shapes<'_, A>, to: &mut Write
 
 fn write_shape<T: Stored>(kind: u8, shape: &T, to: &mut Writer<'_>) {
     to.byte(kind);
-    super::with_bytes(shape, |bytes| (to.0)(bytes));
+    super::content::with_bytes(shape, |bytes| (to.0)(bytes));
 }
 
 fn read_shape<T: Stored>(from: &mut Reader<'_>) -> Option<T> {

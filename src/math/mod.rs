@@ -14,6 +14,8 @@
 //! | [`Radiance`](Arithmetic::Radiance) | radiance or irradiance of one channel | Q16.16 | saturates at 1024 a term |
 
 mod constant;
+#[cfg(test)]
+mod errors;
 mod fixed;
 mod float;
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]

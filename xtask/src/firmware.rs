@@ -9,7 +9,7 @@ use whitted_demo::job::{Job, JobError};
 use whitted_demo::rebuild::{SHAPES, rebuild};
 
 use crate::elf::{self, Sizes, sizes};
-use crate::machine::{Log, MACHINES, Record, built};
+use crate::machine::{self, Log, MACHINES, Record, built};
 use crate::oled;
 use crate::report::Report;
 use crate::shell::{boards, cargo, output, root};
@@ -22,6 +22,9 @@ pub(crate) const TWO_CORES: f64 = 1.8;
 
 /// A ray among SPD's 7,382 balls may cost so many times what one among 92 costs.
 const BALLS: f64 = 3.5;
+
+/// Bytes of code that tracing the limit scene in fixed point may take on a Cortex-M0.
+const KERNEL: u64 = 16 * 1024;
 
 /// Runs every firmware and compares what it says, and shows, with the host.
 pub(crate) fn check(report: &mut Report) {
@@ -39,6 +42,7 @@ pub(crate) fn check(report: &mut Report) {
     oled::damaged(report);
     crate::stm32::check(report);
     crate::stack::check(report);
+    report.check("Cortex-M0: code of the limit scene", kernel);
     report.check("room: area light, texture, instances, a cache filled on the chip", room);
     for machine in MACHINES.iter().filter(|machine| !machine.only_counts()) {
         let jobs: Vec<Job> = Job::small().filter(|job| machine.carries(job)).collect();
@@ -83,6 +87,14 @@ pub(crate) fn check(report: &mut Report) {
                 });
         }
     }
+}
+
+/// The program that is nothing but a tracer of the limit scene is small.
+fn kernel() -> Result<(), String> {
+    let program = machine::build(&boards().join("size"), "limit-fixed", "thumbv6m-none-eabi")?;
+    let code = sizes(&program)?.text;
+    println!("     {code} bytes of {KERNEL}");
+    if code <= KERNEL { Ok(()) } else { Err(format!("{code} bytes are more than {KERNEL}")) }
 }
 
 /// The room's cache is filled, and its picture drawn, as on the host.

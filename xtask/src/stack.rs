@@ -18,7 +18,7 @@ use crate::shell::boards;
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Bytes of `Work` without and for each generation of rays, in either arithmetic.
-const WORK: [u64; 2] = [816, 48];
+const WORK: [u64; 2] = [692, 48];
 /// Bytes of a sample that a sampling remembers, and of a pixel in a row.
 const SAMPLE: u64 = 16;
 const PIXEL: u64 = 3;

@@ -166,8 +166,12 @@ fn fits<A: Construct>(
             let memory = need::memory::<A>(depth);
             line("  memory", format_args!("{memory} bytes to trace {depth} deep, and rows"))?;
             let pixel = need::pixel(&baked, size, depth).map_err(|flaw| flaw.of(file))?;
-            let Pixel { rays, shadow, nodes, tests } = pixel;
-            let rays = format!("{rays:.2} a pixel, and {shadow:.2} to lights");
+            let Pixel { rays, shadow, nodes, tests, lookups } = pixel;
+            let asked = match lookups {
+                0.0 => String::new(),
+                n => format!(", {n:.2} times asking the irradiance cache at most"),
+            };
+            let rays = format!("{rays:.2} a pixel, and {shadow:.2} to lights{asked}");
             let each = 1.0 / (pixel.rays + pixel.shadow).max(1.0);
             let (nodes, tests) = (nodes * each, tests * each);
             line(

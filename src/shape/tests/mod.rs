@@ -2,6 +2,7 @@
 
 extern crate std;
 
+mod distance;
 mod probe;
 mod properties;
 

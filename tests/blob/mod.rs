@@ -1,189 +1,31 @@
 //! Blobs: what was baked is what is read, and hostile bytes are refused or harmless.
 
+mod aligned;
+mod specs;
+
+use aligned::Aligned;
+use specs::*;
 use whitted::blob::{
-    ALIGNMENT, AbsorptionSpec, BackgroundSpec, Blob, BlobError, CameraSpec, Content, GroupContent,
-    InstanceSpec, Room, SelectionSpec, SettingSpec, seal,
+    ALIGNMENT, Blob, BlobError, CameraSpec, Content, GroupContent, InstanceSpec, Room,
+    SelectionSpec, SettingSpec, seal,
 };
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::gather::{
-    Indirect, IrradianceCache, Record, RecordSpec, VirtualLight, VirtualLightSpec, VirtualLights,
+    Indirect, IrradianceCache, Record, VirtualLight, VirtualLightSpec, VirtualLights,
     VirtualLightsSettings, VirtualLightsSpec,
 };
 use whitted::math::Fixed;
 use whitted::octree::{Built, Cube, Extent, Limits, Octree, build_into};
 use whitted::scene::{
-    Absorption, Ambient, Area, AreaLight, AreaLightSpec, Background, Camera, Falloff, FanCorner,
-    Filter, Group, Image, Instance, Light, LightSpec, Mapping, Material, MaterialSpec, Parts,
-    Pattern, PatternSpec, Rules, Scene, Selection, Shadow, Shapes, Texels, Texture, TextureSpec,
-    Transform, TriangleUv, Wrap,
+    Absorption, Ambient, AreaLight, Background, Camera, FanCorner, Group, Instance, Light,
+    Material, MaterialSpec, Parts, Pattern, Rules, Scene, Selection, Shapes, Texture, TextureSpec,
+    Transform, TriangleUv,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Operand, Plane, Polygon, PolygonEdge, Region, SmoothTriangle,
     Solid, Sphere, Triangle,
 };
 use whitted::trace::Work;
-
-const CORNERS: [[f64; 3]; 4] =
-    [[-2.0, 0.0, 3.0], [-1.0, 0.0, 3.0], [-1.0, 1.0, 3.0], [-2.0, 1.0, 3.0]];
-const TRIANGLE: [[f64; 3]; 3] = [[1.0, 0.0, 3.0], [2.0, 0.0, 3.0], [1.5, 1.0, 3.5]];
-
-const MATERIALS: [MaterialSpec; 3] = [
-    MaterialSpec {
-        diffuse: [0.7, 0.3, 0.2],
-        specular: [0.4; 3],
-        shininess: 20.0,
-        reflection: [0.3; 3],
-        texture: Some(0),
-        bump: Some(2),
-        ..MaterialSpec::BLACK
-    },
-    MaterialSpec {
-        transmission: [0.8, 0.9, 0.8],
-        absorption: Some(0),
-        index_behind: 1.5,
-        shadow: Shadow::Filtered,
-        ..MaterialSpec::BLACK
-    },
-    MaterialSpec {
-        diffuse: [0.6; 3],
-        ambient: [0.5; 3],
-        texture: Some(1),
-        pattern: Some(PatternSpec { cell: [0.5, 0.0, 0.5], offset: [0.1, 0.0, 0.0], other: 0 }),
-        ..MaterialSpec::BLACK
-    },
-];
-
-const LIGHTS: [LightSpec; 3] = [
-    LightSpec::Point {
-        position: [-3.0, 4.0, 0.0],
-        intensity: [9.0, 8.0, 7.0],
-        falloff: Falloff::InverseSquare,
-    },
-    LightSpec::Directional { direction: [1.0, -2.0, 1.0], intensity: [0.4; 3] },
-    LightSpec::Spot {
-        position: [0.0, 5.0, 3.0],
-        direction: [0.0, -1.0, 0.0],
-        intensity: [1.0; 3],
-        falloff: Falloff::None,
-        cos_inner: 0.95,
-        cos_outer: 0.9,
-    },
-];
-
-const ABSORPTIONS: [AbsorptionSpec; 1] = [[[0.0; 3], [0.5, 0.1, 0.3]]];
-
-const PICTURE: Image<'static> = Image::new(
-    3,
-    2,
-    Texels::Indexed { bits: 2, palette: &[[200, 30, 30], [240, 240, 220], [20, 40, 90]] },
-    &[0b0001_1000, 0b0110_0000],
-);
-
-const TEXTURES: [TextureSpec<'static>; 3] = [
-    TextureSpec { mapping: Mapping::Uv, ..TextureSpec::of(Pattern::Image(PICTURE)) },
-    TextureSpec {
-        size: [0.5, 0.5, 0.0],
-        ..TextureSpec::of(Pattern::Image(
-            PICTURE.with_filter(Filter::Bilinear).with_wrap(Wrap::Clamp),
-        ))
-    },
-    TextureSpec {
-        size: [0.3; 3],
-        height: 0.05,
-        ..TextureSpec::of(Pattern::Marble { octaves: 2, turbulence: 0.5 })
-    },
-];
-
-const LAMP: [[f64; 3]; 4] = [[-1.0, 4.0, 2.0], [0.0, 4.0, 2.0], [0.3, 4.0, 3.0], [-1.0, 4.0, 3.0]];
-
-const AREA_LIGHTS: [AreaLightSpec<'static>; 2] = [
-    AreaLightSpec {
-        area: Area::Polygon { corners: &LAMP, first: 0 },
-        radiance: [2.0, 2.0, 1.5],
-        error: 0.5,
-        samples: [1, 2],
-        body: None,
-    },
-    AreaLightSpec {
-        area: Area::Sphere { center: [2.0, 3.0, 1.0], radius: 0.2 },
-        radiance: [5.0, 6.0, 7.0],
-        error: 0.5,
-        samples: [1, 2],
-        body: Some(1),
-    },
-];
-
-const RECORDS: [RecordSpec; 2] = [
-    RecordSpec {
-        position: [0.0, 0.0, 3.0],
-        normal: [0.0, 1.0, 0.0],
-        reach: 2.0,
-        irradiance: [0.2, 0.3, 0.4],
-        translation: [0.5, 0.0, -0.25],
-        rotation: [0.1, 0.0, 0.2],
-    },
-    RecordSpec {
-        position: [0.0, 0.5, 2.5],
-        normal: [0.0, 0.0, -1.0],
-        reach: 1.5,
-        irradiance: [0.1, 0.05, 0.0],
-        translation: [0.0; 3],
-        rotation: [0.0; 3],
-    },
-];
-
-const UV: [[f64; 2]; 3] = [[0.0, 0.0], [2.0, 0.0], [1.0, 1.5]];
-const ERROR: f64 = 0.4;
-
-const SETTING: SettingSpec = SettingSpec {
-    camera: CameraSpec {
-        eye: [0.2, 1.5, -4.0],
-        at: [0.0, 0.6, 3.0],
-        up: [0.0, 1.0, 0.0],
-        tangent: 0.5,
-    },
-    ambient: [0.1, 0.1, 0.2],
-    background: BackgroundSpec::Gradient {
-        up: [0.0, 1.0, 0.0],
-        bottom: [0.5; 3],
-        top: [0.1, 0.2, 0.6],
-    },
-    specular_cosine: false,
-    highlight_cosine: true,
-    transmitters_reflect: true,
-    lossy: false,
-    cutoff: 1.0 / 255.0,
-    depth: 4,
-    selection: SelectionSpec::Above(0.001),
-    light_jitter: Some(7),
-};
-
-/// Bytes that start where a blob's must.
-struct Aligned(Vec<u64>, usize);
-
-impl Aligned {
-    fn of(bytes: &[u8]) -> Self {
-        let mut words = vec![0u64; bytes.len().div_ceil(8)];
-        for (word, chunk) in words.iter_mut().zip(bytes.chunks(8)) {
-            let mut eight = [0; 8];
-            eight[..chunk.len()].copy_from_slice(chunk);
-            *word = u64::from_ne_bytes(eight);
-        }
-        Self(words, bytes.len())
-    }
-
-    fn bytes(&self) -> &[u8] {
-        &bytemuck::cast_slice(&self.0)[..self.1]
-    }
-
-    fn set(&mut self, at: usize, value: u8) {
-        bytemuck::cast_slice_mut::<u64, u8>(&mut self.0)[at] = value;
-    }
-
-    fn seal(&mut self) {
-        seal(&mut bytemuck::cast_slice_mut::<u64, u8>(&mut self.0)[..self.1]);
-    }
-}
 
 macro_rules! arithmetic {
     ($module:ident, $a:ty, |$value:ident, $right:ident| $tried:expr) => {
