@@ -39,7 +39,7 @@ pub struct Content<'c, A: Arithmetic> {
     pub virtual_lights: Option<(&'c [VirtualLight<A>], VirtualLightsSpec)>,
     /// Rules, camera and surroundings.
     pub setting: SettingSpec,
-    /// What the scene uses: [`Parts::uses`].
+    /// What the scene uses: [`Parts::uses`](crate::scene::Parts::uses).
     pub uses: u64,
 }
 
@@ -131,7 +131,7 @@ impl<'c, A: Arithmetic> Content<'c, A> {
             .filter(|(i, _)| detail::place(self.textures, *i).is_first)
     }
 
-    /// Writes the blob, piece by piece; the checksum stands 0, for [`seal`].
+    /// Writes the blob, piece by piece; the checksum stands 0, for [`seal`](super::seal).
     pub fn write(&self, to: &mut dyn FnMut(&[u8])) {
         let (_, cube, step) = self.tree.unwrap_or((&[], header::NO_CUBE, 0));
         let counts = self.counts();

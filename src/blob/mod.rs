@@ -1,7 +1,7 @@
 //! A scene in one piece of flash, read where it lies.
 //!
 //! `whitted bake SCENE -o scene.bin` writes it; [`Blob::open`] checks it, all of it and once, and
-//! [`Blob::scene`] gives the [`Scene`]. Shapes, the tree, irradiance records and pictures stay in
+//! [`Blob::scene`] gives the [`Scene`](crate::scene::Scene). Shapes, the tree, irradiance records and pictures stay in
 //! flash. Materials and lights are few; they are made in memory of the caller's. What also has
 //! area lights, textures, media, solids or groups is made by [`Blob::scene_in`] a [`Room`].
 //!
@@ -48,12 +48,12 @@ pub use spec::{BackgroundSpec, CameraSpec, SelectionSpec, SettingSpec};
 pub use stored::Stored;
 pub(crate) use stored::{put, stored, stored_numbers, within};
 
-use header::Header;
-use spec::Reader;
 use crate::gather::Indirect;
 use crate::math::Arithmetic;
 use crate::scene::Shapes;
 use crate::shape::Plane;
+use header::Header;
+use spec::Reader;
 
 /// A blob's bytes start at a multiple of this ([`include_blob!`](crate::include_blob) sees to it).
 pub const ALIGNMENT: usize = 8;
@@ -103,7 +103,7 @@ impl<'b, A: Arithmetic> Blob<'b, A> {
         &self.header.counts
     }
 
-    /// What the scene uses, as a [`tailored`](Scene::tailored) scene's type says it.
+    /// What the scene uses, as a [`tailored`](crate::scene::Scene::tailored) scene's type says it.
     pub fn uses(&self) -> u64 {
         self.header.uses
     }

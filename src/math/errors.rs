@@ -64,7 +64,7 @@ const ROWS: [Row; 39] = [
     Row("decay", "1", Bound(1.0, 0.0), Bound(0.0, 1.1)),
     Row("ratio_q16", "a/b", Bound(1.0, 16.0), Bound(2.0, 0.0)),
     Row("sight", "1", Bound(3.2, 0.0), Bound(0.0, 2.6)),
-    Row("rotate", "length of v", Bound(1.6, 0.0), Bound(0.0, 2.3)),
+    Row("rotate", "length of v", Bound(1.6, 0.0), Bound(0.0, 3.0)),
     Row("turn", "1", Bound(0.75, 0.0), Bound(0.0, 2.1)),
     Row("magnify", "s·a", Bound(0.6, 0.0), Bound(0.0, 2.0)),
 ];
@@ -178,7 +178,7 @@ macro_rules! operations {
 
             /// The matrix of a rotation about an axis (Rodrigues 1840).
             fn turning(r: &mut Random) -> [[f64; 3]; 3] {
-                let ([x, y, z], angle) = (r.direction(), r.between(0.0, 6.28));
+                let ([x, y, z], angle) = (r.direction(), r.between(0.0, 6.0));
                 let (s, c) = angle.sin_cos();
                 let k = 1.0 - c;
                 [

@@ -81,18 +81,21 @@ struct Group {
     check: fn(&mut Report),
 }
 
-/// Those that build in the root's workspace, in the order they run.
-const ROOT: [Group; 2] =
-    [Group { name: "lint", check: lint::root }, Group { name: "host", check: lint::host_tests }];
+/// What is built in the root's workspace; then the two boards of which little has to be built, and much to be
+/// emulated.
+const HOST: [Group; 4] = [
+    Group { name: "lint", check: lint::root },
+    Group { name: "host", check: lint::host_tests },
+    Group { name: "pico", check: pico::check },
+    Group { name: "pico2", check: pico2::check },
+];
 
-/// Those that build in the boards' workspace. A group may have a part in either.
-const BOARDS: [Group; 6] = [
+/// What is built in the boards' workspace. A group may have a part in either.
+const BOARDS: [Group; 4] = [
     Group { name: "lint", check: lint::boards },
     Group { name: "host", check: lint::boards_tests },
     Group { name: "nopanic", check: nopanic::check },
     Group { name: "boards", check: firmware::check },
-    Group { name: "pico", check: pico::check },
-    Group { name: "pico2", check: pico2::check },
 ];
 
 /// The names that `--only` gives; none for all groups.
@@ -101,7 +104,7 @@ fn chosen<'a>(options: &[&'a str]) -> Result<Vec<&'a str>, String> {
     if !rest.is_empty() || pairs.iter().any(|[option, _]| *option != "--only") {
         return Err(USAGE.into());
     }
-    let known = |name: &str| ROOT.iter().chain(&BOARDS).any(|group| group.name == name);
+    let known = |name: &str| HOST.iter().chain(&BOARDS).any(|group| group.name == name);
     match pairs.iter().find(|[_, name]| !known(name)) {
         Some([_, name]) => Err(format!("no group `{name}`\n{USAGE}")),
         None => Ok(pairs.iter().map(|[_, name]| *name).collect()),
@@ -116,13 +119,13 @@ fn test(names: &[&str]) -> Result<(), String> {
         groups.iter().filter(wanted).for_each(|group| (group.check)(&mut report));
         report
     };
-    // Firmware is linked by one thread for minutes: the other core tests the host meanwhile.
-    let (boards, root) = std::thread::scope(|scope| {
+    // Firmware is linked by one thread for minutes, and an emulator is one: the other core has work meanwhile.
+    let (boards, host) = std::thread::scope(|scope| {
         let boards = scope.spawn(|| run(&BOARDS));
-        let root = run(&ROOT);
-        (boards.join(), root)
+        let host = run(&HOST);
+        (boards.join(), host)
     });
-    let mut report = root;
+    let mut report = host;
     report.merge(boards.map_err(|_| "the boards' checks panicked")?);
     report.finish()
 }
