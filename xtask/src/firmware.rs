@@ -120,9 +120,15 @@ fn room() -> Result<(), String> {
 /// The example that bakes its scene when it is built, of another scene if one is named: the blob
 /// that `baked` reads in place, or `source`'s Rust source, gives the host's picture. Instructions a ray.
 fn baked(program: &str, scene: Option<&Path>) -> Result<f64, String> {
-    let variable = if program == "source" { "WHITTED_SOURCE" } else { "WHITTED_SCENE" };
+    // The build script bakes a scene for each of the two programs: the other's is a quick one.
+    let quick = boards().join("baked/lights.toml");
+    let (variable, other) = match program {
+        "source" => ("WHITTED_SOURCE", "WHITTED_SCENE"),
+        _ => ("WHITTED_SCENE", "WHITTED_SOURCE"),
+    };
     let command = |arguments: &[&str]| {
         let mut command = cargo(&boards().join("baked"), arguments);
+        command.env(other, &quick);
         match scene {
             Some(scene) => command.env(variable, scene),
             None => command.env_remove(variable),

@@ -1,14 +1,9 @@
 //! The Raspberry Pi Pico, emulated: its image runs from reset, boot ROM first, and a model of the
 //! display receives the picture, which is compared with the host's.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use embedded_graphics::pixelcolor::raw::RawU16;
-use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
-use embedded_graphics::prelude::*;
 use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
@@ -17,6 +12,7 @@ use crate::cores;
 use crate::elf;
 use crate::firmware::TWO_CORES;
 use crate::machine::{self, Record};
+use crate::picture;
 use crate::report::Report;
 use crate::setup;
 use crate::shell::{boards, output};
@@ -111,7 +107,7 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let order = Order { display, job: job(scene, size), way, stick: None };
     let frame = emulate(&image, &order)?;
     if let Some(file) = file {
-        png(&file, display, &frame.memory)?;
+        picture::save_rgb565(&file, display.size, &frame.memory)?;
     }
     let record = Record::new(&frame.line);
     let pixels = u64::from(size.0) * u64::from(size.1);
@@ -308,29 +304,6 @@ fn compare(order: &Order<'_>, frame: &Frame) -> Result<(), String> {
             here[i]
         )),
     }
-}
-
-/// Writes the display's memory as a PNG.
-fn png(path: &Path, display: &Display, memory: &[u8]) -> Result<(), String> {
-    let rgb: Vec<u8> = memory
-        .as_chunks::<{ rgb565::BYTES }>()
-        .0
-        .iter()
-        .flat_map(|&bytes| {
-            let color = Rgb888::from(Rgb565::from(RawU16::new(u16::from_be_bytes(bytes))));
-            [color.r(), color.g(), color.b()]
-        })
-        .collect();
-    let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    let file = File::create(path).map_err(|error| place(&error))?;
-    let (width, height) = (u32::from(display.size.0), u32::from(display.size.1));
-    let mut encoder = png::Encoder::new(BufWriter::new(file), width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(&rgb).and_then(|()| writer.finish()))
-        .map_err(|error| place(&error))
 }
 
 #[cfg(test)]

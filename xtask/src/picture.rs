@@ -1,7 +1,5 @@
 //! What a board draws, as the host draws it: the pictures in the boards' READMEs.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 use embedded_graphics::pixelcolor::raw::RawU16;
@@ -10,6 +8,8 @@ use embedded_graphics::prelude::*;
 use whitted_demo::checksum::Checksum;
 use whitted_demo::job::{Job, JobError};
 use whitted_demo::{frame, rgb565, room};
+use whitted_host::document::Size;
+use whitted_host::picture::Picture;
 
 const USAGE: &str = "\
 cargo xtask picture JOB|room [-o FILE.png] [--rgb565]
@@ -33,7 +33,7 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
         };
     }
     let mut pixels = Vec::new();
-    let mut keep = |row: &[whitted::frame::Rgb888]| pixels.extend(row.iter().flat_map(|p| p.0));
+    let mut keep = |row: &[whitted::frame::Rgb888]| pixels.extend(row.iter().map(|p| p.0));
     let (size, checksum): ((u16, u16), Checksum) = if *job == "room" {
         (room::SIZE, room::draw(&mut keep).checksum)
     } else {
@@ -48,30 +48,27 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
         (size, checksum)
     };
     println!("checksum {:016x}", checksum.value());
-    file.map_or(Ok(()), |file| png(file, size, &pixels))
+    file.map_or(Ok(()), |file| save(file, size, &pixels))
 }
 
 /// The colours of a display's pixels, big-endian, as 24 bits.
-fn widened(bytes: &[u8]) -> Vec<u8> {
+fn widened(bytes: &[u8]) -> Vec<[u8; 3]> {
     let (pixels, _) = bytes.as_chunks::<{ rgb565::BYTES }>();
-    pixels
-        .iter()
-        .flat_map(|&pixel| {
-            let color = Rgb888::from(Rgb565::from(RawU16::new(u16::from_be_bytes(pixel))));
-            [color.r(), color.g(), color.b()]
-        })
-        .collect()
+    let wide = |&pixel| {
+        let color = Rgb888::from(Rgb565::from(RawU16::new(u16::from_be_bytes(pixel))));
+        [color.r(), color.g(), color.b()]
+    };
+    pixels.iter().map(wide).collect()
 }
 
-/// Writes pixels of 24 bits as a PNG.
-fn png(path: &Path, size: (u16, u16), rgb: &[u8]) -> Result<(), String> {
-    let place = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    let file = File::create(path).map_err(|error| place(&error))?;
-    let mut encoder = png::Encoder::new(BufWriter::new(file), size.0.into(), size.1.into());
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(rgb).and_then(|()| writer.finish()))
-        .map_err(|error| place(&error))
+/// Writes what a display's memory holds as a PNG.
+pub(crate) fn save_rgb565(path: &Path, size: (u16, u16), bytes: &[u8]) -> Result<(), String> {
+    save(path, size, &widened(bytes))
+}
+
+/// Writes pixels as a PNG.
+fn save(path: &Path, (width, height): (u16, u16), pixels: &[[u8; 3]]) -> Result<(), String> {
+    let mut picture = Picture::new(Size { width: width.into(), height: height.into() });
+    picture.pixels_mut().copy_from_slice(pixels);
+    picture.save(path).map_err(|error| format!("{}: {error}", path.display()))
 }
