@@ -47,10 +47,10 @@ const SENDING: f64 = 0.03;
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
                          [--display DISPLAY]
-    scenes are showcase, limit, raystones and ftb; the size is 60x45 unless given, at most the
-    display's; ways are bands (by DMA, the default), graphics (embedded-graphics) and trace
-    (nothing is sent); displays are st7789-240x240, the default, st7789-240x320, st7735s-160x80
-    and ili9341-320x240";
+    scenes are showcase, limit, raystones, ftb and bathroom; the size is 60x45 unless given, at
+    most the display's; ways are bands (by DMA, the default), graphics (embedded-graphics) and
+    trace (nothing is sent); displays are st7789-240x240, the default, st7789-240x320,
+    st7735s-160x80 and ili9341-320x240";
 
 /// A frame to emulate.
 struct Order<'a> {

@@ -35,8 +35,8 @@ const SMALL: (u16, u16) = (60, 45);
 
 const USAGE: &str = "\
 cargo xtask emulate pico2 [--scene NAME] [--size WIDTHxHEIGHT] [--cores arm|riscv]
-    traces a frame in fixed point on one core; scenes are showcase, limit, raystones and ftb; the size is
-    60x45 unless given, at most 240x240";
+    traces a frame in fixed point on one core; scenes are showcase, limit, raystones, ftb and
+    bathroom; the size is 60x45 unless given, at most 240x240";
 
 /// The kinds of cores.
 const CORES: [(&str, &str); 2] =
