@@ -16,7 +16,7 @@ use crate::USAGE;
 const ENLARGED: u16 = 8;
 
 /// Reads a PNG with 8 bits a channel; a transparent one is taken as it is stored.
-fn open(path: &Path) -> Result<Picture, String> {
+pub(crate) fn open(path: &Path) -> Result<Picture, String> {
     let name = path.display();
     let file = File::open(path).map_err(|error| format!("{name}: {error}"))?;
     let mut decoder = png::Decoder::new(BufReader::new(file));
