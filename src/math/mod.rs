@@ -147,6 +147,9 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     const REFINE: bool;
     /// A hit at this distance or beyond is a miss.
     const FAR: Self::Length;
+    /// The largest distance below [`FAR`](Self::FAR): where planes are met that end nowhere. For
+    /// floats, for which `FAR` is as good as endless, that distance itself.
+    const HORIZON: Self::Length;
     /// The cone of all directions.
     const EVERY_DIRECTION: Self::DirectionCone;
     /// Zero length.
@@ -193,6 +196,27 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// `a/b` for `a ≥ 0`, `b ≥ 0`; at least [`FAR`](Self::FAR) where the quotient is larger than
     /// that or `b` is 0.
     fn ratio(a: Self::Length, b: Self::Unit) -> Self::Length;
+    /// The same for a plane without an end: at most [`HORIZON`](Self::HORIZON), for `b > 0`.
+    #[inline(always)]
+    fn endless_ratio(a: Self::Length, b: Self::Unit) -> Self::Length {
+        Self::ratio(a, b)
+    }
+    /// `a/b` in steps so large that planes beyond the horizon can be told apart.
+    #[inline(always)]
+    fn beyond_horizon(_a: Self::Length, _b: Self::Unit) -> Self::Length {
+        Self::NO_LENGTH
+    }
+    /// `o + a/b·d`, for patterns on a plane beyond the horizon: in fixed point to 32,768 units, where
+    /// coordinates begin again.
+    #[inline(always)]
+    fn endless_point(
+        o: &[Self::Length; 3],
+        a: Self::Length,
+        b: Self::Unit,
+        d: &[Self::Unit; 3],
+    ) -> [Self::Length; 3] {
+        Self::along(o, Self::ratio(a, b), d)
+    }
     /// The unit vector along `v`, its length, and the length's reciprocal. A null vector has no
     /// direction and gives null.
     fn normalize(v: &[Self::Length; 3]) -> ([Self::Unit; 3], Self::Length, Self::Inverse);

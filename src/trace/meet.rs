@@ -77,9 +77,10 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     } else if has(USES, uses::PLANES)
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
+        let local = plane.settle::<USES>(ray, meeting.distance, p);
         let surface = plane.surface_seen::<USES>(ray);
         let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
-        Some(Place { surface, material: plane.material(), local: *p, mirror, outside })
+        Some(Place { surface, material: plane.material(), local, mirror, outside })
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
         let (found, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;

@@ -13,6 +13,7 @@ mod cone;
 pub(crate) mod constructors;
 mod direction;
 mod flat;
+mod horizon;
 mod kernel;
 mod light;
 mod place;
@@ -205,6 +206,7 @@ impl Arithmetic for Fixed {
     const NAME: &'static str = "fixed";
     const REFINE: bool = true;
     const FAR: I16F16 = I16F16::from_bits(FAR);
+    const HORIZON: I16F16 = I16F16::from_bits(FAR - 1);
     const EVERY_DIRECTION: FixedDirectionCone =
         FixedDirectionCone { axis: [0; 3], least_q17: i32::MIN };
     const NO_LENGTH: I16F16 = I16F16::ZERO;
@@ -283,6 +285,22 @@ impl Arithmetic for Fixed {
         } else {
             I16F16::from_bits((p << (z - 19)) as i32)
         }
+    }
+
+    #[inline(always)]
+    fn endless_ratio(a: I16F16, b: Unit) -> I16F16 {
+        let quotient = Self::ratio(a, b);
+        if quotient > Self::HORIZON { Self::HORIZON } else { quotient }
+    }
+
+    fn beyond_horizon(a: I16F16, b: Unit) -> I16F16 {
+        // In 1024 units: to a million of them.
+        Self::ratio(I16F16::from_bits(a.to_bits() >> 10), b)
+    }
+
+    #[inline(always)]
+    fn endless_point(o: &[I16F16; 3], a: I16F16, b: Unit, d: &[Unit; 3]) -> [I16F16; 3] {
+        horizon::endless_point(o, a, b, d)
     }
 
     #[inline(always)]
@@ -636,7 +654,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn sight(v: &[Aim; 3]) -> [Unit; 3] {
-        direction::unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
+        direction::sight(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()])
     }
 
     #[inline(always)]

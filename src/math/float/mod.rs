@@ -113,6 +113,7 @@ macro_rules! float {
             const NAME: &'static str = stringify!($f);
             const REFINE: bool = false;
             const FAR: $f = 1e9;
+            const HORIZON: $f = 1e9;
             const EVERY_DIRECTION: FloatDirectionCone<$f> =
                 FloatDirectionCone { axis: [0.0; 3], least: -1.0 };
             const NO_LENGTH: $f = 0.0;
