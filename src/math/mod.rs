@@ -133,7 +133,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     type DirectionCone: Copy + Debug + Send + Sync;
     /// A component of a camera's view vector, not normalised.
     type Aim: Number;
-    /// A ray parameter within the octree, in units of the tree's side.
+    /// A ray parameter within the octree, in units of its own.
     type Span: Number;
     /// A rotation of space.
     type Rotation: Copy + Debug + Send + Sync;
@@ -358,7 +358,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating, for radiances that aren't negative.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
-    /// The step that leads from `a` to `b` in 2^`log2` of them, for radiances that aren't negative.
+    /// The step that leads from `a` to `b` in 2^`log2_side` of them, for radiances that aren't negative.
     /// `log2` is at most 4. Rounded towards 0.
     fn step(a: Self::Radiance, b: Self::Radiance, log2: u32) -> Self::Radiance;
     /// `a` and `n` steps, fewer than [`step`](Self::step) was made for: it lies between the two that
@@ -406,13 +406,19 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// The unit vector along a camera's view vector.
     fn sight(v: &[Self::Aim; 3]) -> [Self::Unit; 3];
 
-    /// For one axis of an octree of side 2^`log2_side` (in [`Self::Length`]'s smallest step for
-    /// [`Fixed`], in units otherwise): the ray parameter at the far face and that of crossing
-    /// the whole side, for a ray at `o` within the cube (0 to side) going towards larger
-    /// coordinates with the speed `d ≥ 0`.
-    fn spans(o: Self::Length, d: Self::Unit, log2_side: i8) -> (Self::Span, Self::Span);
-    /// A distance in the tree's unit, rounded up so that an end is never early.
-    fn span(t: Self::Length, log2_side: i8) -> Self::Span;
+    /// For one axis of an octree's grid: what a ray of the speed `d ≥ 0` takes for `left` and for a cell's
+    /// side, no less than `left` but for what a position may be wrong. In fixed point the side is below
+    /// 2¹³·2^`unit` steps.
+    fn spans(
+        left: Self::Length,
+        cell: Self::Length,
+        d: Self::Unit,
+        unit: u8,
+    ) -> (Self::Span, Self::Span);
+    /// A distance as a span, rounded up so that an end is never early.
+    fn span(t: Self::Length, unit: u8) -> Self::Span;
+    /// A span `n` times, for up to 7.
+    fn spans_of(s: Self::Span, n: u32) -> Self::Span;
     /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
     fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
     /// `Rᵀ·v`, the way back.
@@ -428,7 +434,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
 
     /// A span over 2^`times`, for 0 to 31.
     fn halved(s: Self::Span, times: u32) -> Self::Span;
-    /// The side of a tree, 2^`log2_side`.
+    /// 2^`log2_side` of [`Fixed`]'s smallest steps, or of units otherwise.
     fn side(log2_side: i8) -> Self::Length;
 }
 

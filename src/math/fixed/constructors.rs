@@ -328,8 +328,3 @@ pub(crate) const fn to_grid(x: I16F16, _log2_step: i8) -> i32 {
 pub(crate) const fn from_grid(x: i32, _log2_step: i8) -> I16F16 {
     I16F16::from_bits(x)
 }
-
-/// The side of an octree of 2^`log2_side` steps, as `Arithmetic::spans` takes it.
-pub(crate) const fn log2_side(log2_side: u8, _log2_step: i8) -> i8 {
-    log2_side as i8
-}

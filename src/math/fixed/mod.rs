@@ -25,7 +25,7 @@ use super::{Arithmetic, log, root};
 use crate::blob::stored_numbers;
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
-use kernel::{length_times_unit, lengths, magnitude, project, shift, units};
+use kernel::{length_times_unit, lengths, magnitude, project, units};
 
 type Unit = FixedI32<U17>;
 type Weight = FixedI32<U14>;
@@ -640,23 +640,27 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn spans(o: I16F16, d: Unit, log2_side: i8) -> (i32, i32) {
+    fn spans(left: I16F16, cell: I16F16, d: Unit, unit: u8) -> (i32, i32) {
         // Slower than 2⁻¹⁴, a ray drifts less than the margin that the builder leaves.
         let d = if d.to_bits() < 8 { 8 } else { d.to_bits() as u32 };
-        let left = (1i32 << (log2_side as u32 & 31)).wrapping_sub(o.to_bits());
-        let left_q16 = shift(left, 16 - i32::from(log2_side)) as u32;
         let (m, z) = root::normalize(d);
+        // Below 2¹³ times up to 2¹⁷; 1/d = y·2^(z − 31), z no more than 28.
         let y_q16 = reciprocal_q28(m) >> 12;
-        let p_q24 = (left_q16 >> 8)
-            .wrapping_mul(y_q16)
-            .wrapping_add((left_q16 & 255).wrapping_mul(y_q16) >> 8);
-        // 1/d = y·2^(z − 15)
-        (shift(p_q24 as i32, z as i32 - 23), shift(y_q16 as i32, z as i32 - 15))
+        let f = |a: I16F16| {
+            let a = (a.to_bits() >> (unit & 31)) as u32;
+            (a.wrapping_mul(y_q16) >> (31u32.wrapping_sub(z) & 31)) as i32
+        };
+        (f(left), f(cell))
     }
 
     #[inline(always)]
-    fn span(t: I16F16, log2_side: i8) -> i32 {
-        shift(t.to_bits(), 16 - i32::from(log2_side)).wrapping_add(1)
+    fn span(t: I16F16, unit: u8) -> i32 {
+        (t.to_bits() >> (unit & 31)).wrapping_add(1)
+    }
+
+    #[inline(always)]
+    fn spans_of(s: i32, n: u32) -> i32 {
+        s.wrapping_mul(n as i32)
     }
 
     #[inline(always)]

@@ -195,11 +195,6 @@ macro_rules! constructors {
                 (x as f64 * f64_power_of_two(log2_step)) as $f
             }
 
-            /// The side of an octree of 2^`log2_side` steps, as `Arithmetic::spans` takes it.
-            pub(crate) const fn log2_side(log2_side: u8, log2_step: i8) -> i8 {
-                log2_side as i8 + log2_step
-            }
-
             const fn f64_power_of_two(n: i8) -> f64 {
                 f64::from_bits(((1023 + n as i64) as u64) << 52)
             }

@@ -578,16 +578,20 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn spans(o: $f, d: $f, log2_side: i8) -> ($f, $f) {
+            fn spans(left: $f, cell: $f, d: $f, _: u8) -> ($f, $f) {
                 let d = if d < $slow { $slow } else { d };
-                let side = Self::side(log2_side);
-                ((side - o) / d, side / d)
+                (left / d, cell / d)
             }
 
             #[inline(always)]
-            fn span(t: $f, _: i8) -> $f {
+            fn span(t: $f, _: u8) -> $f {
                 // The rounding of the quotients behind the spans.
                 t + t * (4.0 * $eps)
+            }
+
+            #[inline(always)]
+            fn spans_of(s: $f, n: u32) -> $f {
+                s * n as $f
             }
 
             #[inline(always)]
