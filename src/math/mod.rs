@@ -133,6 +133,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     type DirectionCone: Copy + Debug + Send + Sync;
     /// A component of a camera's view vector, not normalised.
     type Aim: Number;
+    /// The reciprocal of a direction's component, for walks.
+    type Pace: Copy;
     /// A ray parameter within the octree, in units of its own.
     type Span: Number;
     /// A rotation of space.
@@ -406,13 +408,17 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// The unit vector along a camera's view vector.
     fn sight(v: &[Self::Aim; 3]) -> [Self::Unit; 3];
 
-    /// For one axis of an octree's grid: what a ray of the speed `d ≥ 0` takes for `left` and for a cell's
-    /// side, no less than `left` but for what a position may be wrong. In fixed point the side is below
-    /// 2¹³·2^`unit` steps.
+    /// What a ray of the speed `d ≥ 0` takes for a length along an axis.
+    fn pace(d: Self::Unit) -> Self::Pace;
+    /// What it takes for `a ≥ 0`; at least [`FAR`](Self::FAR) where that is larger, and too little by any
+    /// amount where the speed is below 2⁻¹⁴.
+    fn takes(a: Self::Length, pace: &Self::Pace) -> Self::Length;
+    /// For one axis of an octree's grid: what it takes for `left` and for a cell's side, no less than
+    /// `left` but for what a position may be wrong. In fixed point the side is below 2¹³·2^`unit` steps.
     fn spans(
         left: Self::Length,
         cell: Self::Length,
-        d: Self::Unit,
+        pace: &Self::Pace,
         unit: u8,
     ) -> (Self::Span, Self::Span);
     /// A distance as a span, rounded up so that an end is never early.

@@ -73,7 +73,7 @@ struct Frame<A: Arithmetic> {
 /// A walk's memory. It needn't be cleared between walks.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkStack<A: Arithmetic> {
-    /// The first one stands for the grid: its word and number stay 0.
+    /// The first one stands for a cell of the grid: its word and number stay 0.
     frames: [Frame<A>; MAX_LEVELS + 1],
 }
 
@@ -88,6 +88,16 @@ impl<A: Arithmetic> Default for WalkStack<A> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// What a walk below the grid needs to know of the ray.
+struct Way<A: Arithmetic> {
+    whole: [A::Span; 3],
+    /// What the spans' beginning is from the ray's origin.
+    back: A::Length,
+    mirror: u32,
+    entry: A::Span,
+    bound: A::Span,
 }
 
 /// Whether positions in the cube, and differences of them, fit.
@@ -194,15 +204,18 @@ impl<A: Arithmetic> Octree<'_, A> {
         let mut o = sub(origin, &self.origin);
         let mut d = *direction;
         let mut mirror = 0;
-        let mut start = A::NO_LENGTH;
         for axis in 0..3 {
             if d[axis] < A::NO_UNIT {
                 d[axis] = -d[axis];
                 o[axis] = self.sides[axis] - o[axis];
                 mirror |= 1 << axis;
             }
+        }
+        let pace = [A::pace(d[0]), A::pace(d[1]), A::pace(d[2])];
+        let mut start = A::NO_LENGTH;
+        for axis in 0..3 {
             if o[axis] < A::NO_LENGTH {
-                let entry = A::ratio(-o[axis], d[axis]);
+                let entry = A::takes(-o[axis], &pace[axis]);
                 if entry > start {
                     start = entry;
                 }
@@ -220,111 +233,149 @@ impl<A: Arithmetic> Octree<'_, A> {
         }
         // Where the hits are, distances are as wrong as the place where the ray enters.
         let back = start - slack;
-        let bound_of = |limit: A::Length| A::span(limit - back, self.unit);
-        let mut bound = bound_of(visitor.limit());
+        let mut bound = A::span(visitor.limit() - back, self.unit);
         if A::NO_SPAN > bound {
             return;
         }
-        // The cell that the ray starts in, its exits, and where the ray leaves the grid.
-        let (mut ends, mut whole, mut index) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
-        let mut last = None;
+        // For each axis the cell that the ray starts in, its exit, and where the ray leaves the grid.
+        let (mut exits, mut whole, mut cell) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
         for axis in 0..3 {
+            let last = u32::from(self.cells[axis]) - 1;
+            let mut more = last;
             let mut left = self.cell - o[axis];
-            let mut more = u32::from(self.cells[axis]) - 1;
             while left <= A::NO_LENGTH {
                 let Some(fewer) = more.checked_sub(1) else { return };
                 more = fewer;
                 left = left + self.cell;
             }
-            (ends[axis], whole[axis]) = A::spans(left, self.cell, d[axis], self.unit);
-            let end = ends[axis] + A::spans_of(whole[axis], more);
-            if last.is_none_or(|last| end < last) {
-                last = Some(end);
+            (exits[axis], whole[axis]) = A::spans(left, self.cell, &pace[axis], self.unit);
+            let end = exits[axis] + A::spans_of(whole[axis], more);
+            if end < bound {
+                bound = end;
             }
-            index[axis] = if mirror >> axis & 1 != 0 {
-                more
-            } else {
-                (u32::from(self.cells[axis]) - 1).wrapping_sub(more)
-            };
+            cell[axis] = if mirror >> axis & 1 != 0 { more } else { last.wrapping_sub(more) };
         }
-        let end = last.unwrap_or(A::NO_SPAN);
-        bound = if end < bound { end } else { bound };
-        let step = |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
         let rows = u32::from(self.cells[1]);
-        let steps = [step(0, 1), step(1, 1), step(2, rows)];
-        let mut row = index[2].wrapping_mul(rows).wrapping_add(index[1]).wrapping_add(1);
-        let mut x = index[0];
+        let step = |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
+        let (step_x, step_y, step_z) = (step(0, 1), step(1, 1), step(2, rows));
+        let mut row = cell[2].wrapping_mul(rows).wrapping_add(cell[1]).wrapping_add(1);
+        let mut x = cell[0];
+        let [mut exit_x, mut exit_y, mut exit_z] = exits;
         let mut recent = [u32::MAX; RECENT];
-        let [grid, ..] = &mut stack.frames;
-        grid.ends = ends;
-        let mut level = 0;
+        let mut entry = A::NO_SPAN;
         visitor.node();
         let Some(&(mut word)) = self.words.get(row as usize) else { return };
-        let (mut number, mut child, mut entry) = (0, x, A::NO_SPAN);
         loop {
             visitor.step();
-            if let Some(index) = node::child(word, child) {
+            if let Some(index) = node::child(word, x) {
                 let Some(&below) = self.words.get(index) else { return };
                 if node::is_leaf(below) {
                     if self.visit_leaf(below, &mut recent, visitor) {
                         return;
                     }
-                    let limit = bound_of(visitor.limit());
+                    let limit = A::span(visitor.limit() - back, self.unit);
                     bound = if limit < bound { limit } else { bound };
                 } else {
-                    // The node of this word is entered.
-                    visitor.node();
-                    let Some([above, frame, ..]) = stack.frames.get_mut(level..) else { return };
-                    above.number = number;
-                    level += 1;
-                    number = 0;
-                    word = below;
-                    for axis in 0..3 {
-                        let middle = above.ends[axis] - A::halved(whole[axis], level as u32);
-                        let upper = middle <= entry;
-                        number |= u32::from(upper) << axis;
-                        frame.ends[axis] = if upper { above.ends[axis] } else { middle };
+                    let [grid, ..] = &mut stack.frames;
+                    grid.ends = [exit_x, exit_y, exit_z];
+                    let way = Way { whole, back, mirror, entry, bound };
+                    match self.walk_below(below, way, &mut recent, stack, visitor) {
+                        Some(nearer) => bound = nearer,
+                        None => return,
                     }
-                    frame.word = word;
-                    child = number ^ mirror;
-                    continue;
                 }
             }
-            // On to the next cell or child, of this node or of one above.
-            let Some(frame) = stack.frames.get(level) else { return };
-            let mut axis = 0;
-            entry = frame.ends[0];
-            if frame.ends[1] < entry {
-                (entry, axis) = (frame.ends[1], 1);
+            // On through the nearest face.
+            if exit_x < exit_y && exit_x < exit_z {
+                entry = exit_x;
+                if entry >= bound {
+                    return;
+                }
+                exit_x = exit_x + whole[0];
+                x = x.wrapping_add(step_x);
+                continue;
             }
-            if frame.ends[2] < entry {
-                (entry, axis) = (frame.ends[2], 2);
+            if exit_y < exit_z {
+                entry = exit_y;
+                exit_y = exit_y + whole[1];
+                row = row.wrapping_add(step_y);
+            } else {
+                entry = exit_z;
+                exit_z = exit_z + whole[2];
+                row = row.wrapping_add(step_z);
             }
             if entry >= bound {
                 return;
             }
-            while level > 0 && number & 1 << axis != 0 {
-                level -= 1;
-                let Some(frame) = stack.frames.get(level) else { return };
-                (word, number) = (frame.word, frame.number);
+            let Some(&next) = self.words.get(row as usize) else { return };
+            word = next;
+        }
+    }
+
+    /// The walk below a cell of the grid, whose exits are in the first frame. Gives the new bound, or
+    /// nothing where the visitor wants to stop.
+    #[inline(never)]
+    fn walk_below<V: Visitor<A>>(
+        &self,
+        mut word: u32,
+        Way { whole, back, mirror, mut entry, mut bound }: Way<A>,
+        recent: &mut [u32; RECENT],
+        stack: &mut WalkStack<A>,
+        visitor: &mut V,
+    ) -> Option<A::Span> {
+        let mut level = 0;
+        loop {
+            // The node of this word is entered.
+            visitor.node();
+            let [above, frame, ..] = stack.frames.get_mut(level..)? else { return None };
+            level += 1;
+            let mut number = 0;
+            for axis in 0..3 {
+                let middle = above.ends[axis] - A::halved(whole[axis], level as u32);
+                let upper = middle <= entry;
+                number |= u32::from(upper) << axis;
+                frame.ends[axis] = if upper { above.ends[axis] } else { middle };
             }
-            let Some(level_above) = level.checked_sub(1) else {
-                // Of the grid.
-                let [grid, ..] = &mut stack.frames;
-                grid.ends[axis] = grid.ends[axis] + whole[axis];
-                if axis == 0 {
-                    x = x.wrapping_add(steps[0]);
-                } else {
-                    row = row.wrapping_add(steps[axis]);
+            frame.word = word;
+            loop {
+                visitor.step();
+                if let Some(index) = node::child(word, number ^ mirror) {
+                    let &below = self.words.get(index)?;
+                    if !node::is_leaf(below) {
+                        stack.frames.get_mut(level)?.number = number;
+                        word = below;
+                        break;
+                    }
+                    if self.visit_leaf(below, recent, visitor) {
+                        return None;
+                    }
+                    let limit = A::span(visitor.limit() - back, self.unit);
+                    bound = if limit < bound { limit } else { bound };
                 }
-                let Some(&cells) = self.words.get(row as usize) else { return };
-                (word, child) = (cells, x);
-                continue;
-            };
-            number |= 1 << axis;
-            child = number ^ mirror;
-            let Some([above, frame, ..]) = stack.frames.get_mut(level_above..) else { return };
-            frame.ends[axis] = above.ends[axis];
+                // On to the next child, of this node or of one above.
+                let frame = stack.frames.get(level)?;
+                let mut axis = 0;
+                entry = frame.ends[0];
+                if frame.ends[1] < entry {
+                    (entry, axis) = (frame.ends[1], 1);
+                }
+                if frame.ends[2] < entry {
+                    (entry, axis) = (frame.ends[2], 2);
+                }
+                if entry >= bound {
+                    return None;
+                }
+                while number & 1 << axis != 0 {
+                    level -= 1;
+                    let frame = stack.frames.get(level)?;
+                    (word, number) = (frame.word, frame.number);
+                }
+                number |= 1 << axis;
+                // The cell of the grid is left, across the same face as its child.
+                let Some(level_above) = level.checked_sub(1) else { return Some(bound) };
+                let [above, frame, ..] = stack.frames.get_mut(level_above..)? else { return None };
+                frame.ends[axis] = above.ends[axis];
+            }
         }
     }
 

@@ -160,6 +160,13 @@ pub struct FixedCoarse {
     d_q12: [i32; 3],
 }
 
+/// See [`Arithmetic::Pace`]: `y_q16·2^−down`.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedPace {
+    y_q16: u32,
+    down: u32,
+}
+
 /// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least_q17`
 /// steps of the axis.
 #[derive(Clone, Copy, Debug)]
@@ -198,6 +205,7 @@ impl Arithmetic for Fixed {
     type Coarse = FixedCoarse;
     type DirectionCone = FixedDirectionCone;
     type Aim = Aim;
+    type Pace = FixedPace;
     type Span = i32;
     type Rotation = FixedRotation;
     type Scale = FixedScale;
@@ -639,16 +647,41 @@ impl Arithmetic for Fixed {
         direction::unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
     }
 
-    #[inline(always)]
-    fn spans(left: I16F16, cell: I16F16, d: Unit, unit: u8) -> (i32, i32) {
-        // Slower than 2⁻¹⁴, a ray drifts less than the margin that the builder leaves.
+    // Out of line: three of them at once don't fit the registers.
+    #[inline(never)]
+    fn pace(d: Unit) -> FixedPace {
+        // Slower than 2⁻¹⁴, a ray drifts less than the margin that an octree's builder leaves.
         let d = if d.to_bits() < 8 { 8 } else { d.to_bits() as u32 };
-        let (m, z) = root::normalize(d);
-        // Below 2¹³ times up to 2¹⁷; 1/d = y·2^(z − 31), z no more than 28.
-        let y_q16 = reciprocal_q28(m) >> 12;
+        let (m, z) = root::normalize_large(d << 14);
+        FixedPace { y_q16: reciprocal_q28(m) >> 12, down: 17u32.wrapping_sub(z) }
+    }
+
+    #[inline(always)]
+    fn takes(a: I16F16, pace: &FixedPace) -> I16F16 {
+        if a >= Self::FAR {
+            return Self::FAR;
+        }
+        // a·y/2¹³, below 2³¹ since a < 2²⁶
+        let bits = a.to_bits() as u32;
+        let p = (bits >> 13)
+            .wrapping_mul(pace.y_q16)
+            .wrapping_add((bits & 0x1fff).wrapping_mul(pace.y_q16) >> 13);
+        // and that times 2^(13 − down), down being 3 to 17
+        if pace.down >= 13 {
+            I16F16::from_bits((p >> (pace.down.wrapping_sub(13) & 31)) as i32)
+        } else if p >> (pace.down.wrapping_add(13) & 31) != 0 {
+            Self::FAR
+        } else {
+            I16F16::from_bits((p << (13u32.wrapping_sub(pace.down) & 31)) as i32)
+        }
+    }
+
+    #[inline(always)]
+    fn spans(left: I16F16, cell: I16F16, pace: &FixedPace, unit: u8) -> (i32, i32) {
+        // Below 2¹³ times up to 2¹⁷.
         let f = |a: I16F16| {
             let a = (a.to_bits() >> (unit & 31)) as u32;
-            (a.wrapping_mul(y_q16) >> (31u32.wrapping_sub(z) & 31)) as i32
+            (a.wrapping_mul(pace.y_q16) >> (pace.down & 31)) as i32
         };
         (f(left), f(cell))
     }

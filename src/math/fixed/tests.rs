@@ -265,7 +265,7 @@ proptest! {
         let cell = m << (5 + unit);
         let left = (left * f64::from(cell)) as i32;
         let d = make::unit(d).unwrap();
-        let (exit, whole) = Fixed::spans(I16F16::from_bits(left), I16F16::from_bits(cell), d, unit);
+        let (exit, whole) = Fixed::spans(I16F16::from_bits(left), I16F16::from_bits(cell), &Fixed::pace(d), unit);
         for (found, way) in [(exit, left), (whole, cell)] {
             let exact = f64::from(way) / f64::from(1 << unit) / d.to_num::<f64>();
             let wrong = exact * 2e-5 + 1.0 + 1.0 / d.to_num::<f64>();

@@ -106,6 +106,7 @@ macro_rules! float {
             type Coarse = ();
             type DirectionCone = FloatDirectionCone<$f>;
             type Aim = $f;
+            type Pace = $f;
             type Span = $f;
             type Rotation = [[$f; 3]; 3];
             type Scale = FloatScale<$f>;
@@ -578,9 +579,18 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn spans(left: $f, cell: $f, d: $f, _: u8) -> ($f, $f) {
-                let d = if d < $slow { $slow } else { d };
-                (left / d, cell / d)
+            fn pace(d: $f) -> $f {
+                if d < $slow { $slow } else { d }
+            }
+
+            #[inline(always)]
+            fn takes(a: $f, pace: &$f) -> $f {
+                Self::ratio(a, *pace)
+            }
+
+            #[inline(always)]
+            fn spans(left: $f, cell: $f, pace: &$f, _: u8) -> ($f, $f) {
+                (left / *pace, cell / *pace)
             }
 
             #[inline(always)]
