@@ -314,7 +314,7 @@ impl<A: Arithmetic> Octree<'_, A> {
 
     /// The walk below a cell of the grid, whose exits are in the first frame. Gives the new bound, or
     /// nothing where the visitor wants to stop.
-    #[inline(never)]
+    #[inline(always)]
     fn walk_below<V: Visitor<A>>(
         &self,
         mut word: u32,
