@@ -101,7 +101,7 @@ pub(super) fn child(inner: u32, number: u32) -> Option<usize> {
 pub(super) struct Grid {
     pub(super) cells: [u8; 3],
     /// A cell's side is `mantissa << shift` steps, the mantissa's highest bit set.
-    mantissa: u8,
+    pub(super) mantissa: u8,
     pub(super) shift: u8,
 }
 

@@ -49,6 +49,7 @@ pub struct Octree<'a, A: Arithmetic> {
     /// The sides of the grid and of a cell.
     sides: [A::Length; 3],
     cell: A::Length,
+    per_cell: A::Span,
     cells: [u8; 3],
     /// See [`Arithmetic::spans`].
     unit: u8,
@@ -162,6 +163,7 @@ for_each_arithmetic! {
                     make::from_grid(side * n[2] as i32, log2_step),
                 ],
                 cell: make::from_grid(side, log2_step),
+                per_cell: make::per_cell(grid.mantissa, grid.shift, log2_step),
                 cells: n,
                 unit: grid.shift - node::LEAST_SHIFT,
                 width,
@@ -241,19 +243,15 @@ impl<A: Arithmetic> Octree<'_, A> {
         let (mut exits, mut whole, mut cell) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
         for axis in 0..3 {
             let last = u32::from(self.cells[axis]) - 1;
-            let mut more = last;
-            let mut left = self.cell - o[axis];
-            while left <= A::NO_LENGTH {
-                let Some(fewer) = more.checked_sub(1) else { return };
-                more = fewer;
-                left = left + self.cell;
-            }
+            let before = A::cells_before(o[axis], self.per_cell, self.unit);
+            let Some(more) = last.checked_sub(before) else { return };
+            let left = A::cells_long(self.cell, before + 1) - o[axis];
             (exits[axis], whole[axis]) = A::spans(left, self.cell, &pace[axis], self.unit);
             let end = exits[axis] + A::spans_of(whole[axis], more);
             if end < bound {
                 bound = end;
             }
-            cell[axis] = if mirror >> axis & 1 != 0 { more } else { last.wrapping_sub(more) };
+            cell[axis] = if mirror >> axis & 1 != 0 { more } else { before };
         }
         let rows = u32::from(self.cells[1]);
         let step = |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };

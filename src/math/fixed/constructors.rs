@@ -328,3 +328,12 @@ pub(crate) const fn to_grid(x: I16F16, _log2_step: i8) -> i32 {
 pub(crate) const fn from_grid(x: i32, _log2_step: i8) -> I16F16 {
     I16F16::from_bits(x)
 }
+
+/// For `Arithmetic::cells_before`: 2¹⁶ over a cell's side of `mantissa << shift` steps, whose shift is
+/// its business; rounded up, so that no whole cell is missed.
+pub(crate) const fn per_cell(mantissa: u8, _shift: u8, _log2_step: i8) -> i32 {
+    match 0xffff_u32.checked_div(mantissa as u32) {
+        Some(quotient) => quotient as i32 + 1,
+        None => 0,
+    }
+}

@@ -647,8 +647,7 @@ impl Arithmetic for Fixed {
         direction::unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
     }
 
-    // Out of line: three of them at once don't fit the registers.
-    #[inline(never)]
+    #[inline(always)]
     fn pace(d: Unit) -> FixedPace {
         // Slower than 2⁻¹⁴, a ray drifts less than the margin that an octree's builder leaves.
         let d = if d.to_bits() < 8 { 8 } else { d.to_bits() as u32 };
@@ -684,6 +683,24 @@ impl Arithmetic for Fixed {
             (a.wrapping_mul(pace.y_q16) >> (pace.down & 31)) as i32
         };
         (f(left), f(cell))
+    }
+
+    #[inline(always)]
+    fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
+        // Eleven bits hold eight cells; times ten: see `per_cell`.
+        let o = o.to_bits() >> (unit & 31) >> 5;
+        if (o as u32) < 1 << 11 {
+            (o as u32).wrapping_mul(per as u32) >> 16
+        } else if o < 0 {
+            0
+        } else {
+            u32::MAX
+        }
+    }
+
+    #[inline(always)]
+    fn cells_long(cell: I16F16, n: u32) -> I16F16 {
+        I16F16::from_bits(cell.to_bits().wrapping_mul(n as i32))
     }
 
     #[inline(always)]

@@ -195,6 +195,12 @@ macro_rules! constructors {
                 (x as f64 * f64_power_of_two(log2_step)) as $f
             }
 
+            /// For `Arithmetic::cells_before`: one over a cell's side of `mantissa << shift` steps.
+            pub(crate) const fn per_cell(mantissa: u8, shift: u8, log2_step: i8) -> $f {
+                let side = ((mantissa as u32) << shift) as f64 * f64_power_of_two(log2_step);
+                (1.0 / side) as $f
+            }
+
             const fn f64_power_of_two(n: i8) -> f64 {
                 f64::from_bits(((1023 + n as i64) as u64) << 52)
             }

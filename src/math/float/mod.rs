@@ -594,6 +594,17 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn cells_before(o: $f, per: $f, _: u8) -> u32 {
+                // Saturating: below 0 there are none.
+                (o * per) as u32
+            }
+
+            #[inline(always)]
+            fn cells_long(cell: $f, n: u32) -> $f {
+                cell * n as $f
+            }
+
+            #[inline(always)]
             fn span(t: $f, _: u8) -> $f {
                 // The rounding of the quotients behind the spans.
                 t + t * (4.0 * $eps)
