@@ -421,8 +421,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
         pace: &Self::Pace,
         unit: u8,
     ) -> (Self::Span, Self::Span);
-    /// How many cells of an octree's grid lie before `o`: 0 where it is negative, and one too many at most
-    /// by 2⁻¹¹ of a cell. `per` is what the arithmetic's constructors make of a cell's side.
+    /// How many whole cells of an octree's grid lie before `o`: exactly in fixed point, and 0 where it is
+    /// negative. `per` is what the arithmetic's constructors make of a cell's side.
     fn cells_before(o: Self::Length, per: Self::Span, unit: u8) -> u32;
     /// The length of `n` cells, for up to 8.
     fn cells_long(cell: Self::Length, n: u32) -> Self::Length;

@@ -22,12 +22,14 @@ use super::node::{self, Grid, IdWidth, MAX_CELLS, MAX_LEVELS, ROOM};
 use super::overlap::{Cell, bounds};
 use core::fmt;
 
-/// Cycles on a Cortex-M0+ for an inner node, a step to a child, and a shape's test: their
-/// proportions decide where a cell is cut.
-const CELL_COST: usize = 60;
+/// Cycles on a Cortex-M0+, roughly: for a cell of the grid, for an inner node, for a step to a child,
+/// and for the test of a sphere or of another shape, most of which miss. Their proportions decide how fine
+/// the grid is and where a cell is cut.
+const CELL_COST: usize = 80;
 const NODE_COST: usize = 150;
 const STEP_COST: usize = 110;
-const TEST_COST: usize = 170;
+const SPHERE_COST: usize = 150;
+const TEST_COST: usize = 300;
 
 /// What rounding adds to an extent and to a test of it, in steps.
 const MARGIN_STEPS: i32 = 8;
@@ -53,7 +55,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Good for all arithmetics: ten levels (where the margin is a quarter of a cell), leaves as
+    /// Good for all arithmetics: ten levels (where the margin is half a cell or more), leaves as
     /// the cost wants them.
     pub const DEFAULT: Self = Self { levels: 10, leaf: 2, precision: 11 };
 }
@@ -154,46 +156,47 @@ const fn bounds_of(extents: &[Extent]) -> Result<([i32; 3], [i32; 3]), BuildErro
     Ok((min, max))
 }
 
-/// How large the shapes' boxes are together, a unit being 2^`shift` steps.
+/// How large the shapes' boxes are together, a unit being 2^`shift` steps, each as often as its test
+/// costs.
 struct Sizes {
     shift: u32,
-    count: u64,
+    costs: u64,
     lengths: u64,
     areas: u64,
     volumes: u64,
 }
 
 impl Sizes {
-    /// Ten bits are left of the largest size.
+    /// Nine bits are left of the largest size: the cube of a side times eight million costs fits 64 bits.
     const fn of(extents: &[Extent], largest: i32) -> Self {
         let mut shift = 0;
-        while largest >> shift > 1 << 10 {
+        while largest >> shift > 1 << 9 {
             shift += 1;
         }
-        let mut all =
-            Self { shift, count: extents.len() as u64, lengths: 0, areas: 0, volumes: 0 };
+        let mut all = Self { shift, costs: 0, lengths: 0, areas: 0, volumes: 0 };
         let mut i = 0;
         while i < extents.len() {
             let (low, high) = bounds(&extents[i]);
             let x = ((high[0] - low[0]) >> shift) as u32 + 1;
             let y = ((high[1] - low[1]) >> shift) as u32 + 1;
             let z = ((high[2] - low[2]) >> shift) as u32 + 1;
-            all.lengths += (x + y + z) as u64;
-            all.areas += (x * y + y * z + z * x) as u64;
-            all.volumes += (x * y) as u64 * z as u64;
+            let cost = test_cost(extents, i) as u64;
+            all.costs += cost;
+            all.lengths += cost * (x + y + z) as u64;
+            all.areas += cost * (x * y + y * z + z * x) as u64;
+            all.volumes += cost * (x * y) as u64 * z as u64;
             i += 1;
         }
         all
     }
 
-    /// The number of shapes in all cells of this side together, times 16.
-    const fn entries(&self, side: i32) -> u64 {
+    /// What testing all shapes in all cells of this side costs, times 16.
+    const fn tests(&self, side: i32) -> u64 {
         let side = (side >> self.shift) as u64 + 1;
-        let lists =
-            ((self.count * side + self.lengths) * side + self.areas) * side + self.volumes;
-        match lists.checked_div(side * side * side >> 4) {
-            Some(entries) => entries,
-            None => lists,
+        let all = ((self.costs * side + self.lengths) * side + self.areas) * side + self.volumes;
+        match all.checked_div((side * side * side) >> 4) {
+            Some(tests) => tests,
+            None => all,
         }
     }
 }
@@ -228,7 +231,7 @@ const fn grid_of(extents: &[Extent], size: &[i32; 3], most: usize, precision: u8
             axis += 1;
         }
         let [x, y, z] = [grid.cells[0] as u64, grid.cells[1] as u64, grid.cells[2] as u64];
-        let all = x * y * z * CELL_COST as u64 * 16 + sizes.entries(grid.side()) * TEST_COST as u64;
+        let all = 16 * x * y * z * CELL_COST as u64 + sizes.tests(grid.side());
         let cost = match (3 * all).checked_div(x * y + y * z + z * x) {
             Some(cost) => cost,
             None => all,
@@ -327,22 +330,31 @@ const fn octants(cell: &Cell, extents: &[Extent], id: u32) -> u32 {
     if (id as usize) < extents.len() { cell.octants(&extents[id as usize]) as u32 } else { 0 }
 }
 
+/// What a test of this shape costs.
+const fn test_cost(extents: &[Extent], id: usize) -> usize {
+    if id < extents.len() && matches!(extents[id], Extent::Sphere { .. }) {
+        SPHERE_COST
+    } else {
+        TEST_COST
+    }
+}
+
 /// Notes beside each id the octants it meets, and decides whether to cut the cell: its children,
 /// or 0.
 const fn cut(extents: &[Extent], scratch: &mut [u32], list: List, cell: &Cell) -> u32 {
-    let (mut children, mut entries) = (0, 0);
+    let (mut children, mut whole, mut parts) = (0, 0, 0);
     let mut i = list.start;
     while i < list.end {
         let id = node::word(scratch, i) & ID;
         let octants = octants(cell, extents, id);
         children |= octants;
-        entries += node::population(octants) as usize;
+        let test = test_cost(extents, id as usize);
+        whole += test;
+        parts += node::population(octants) as usize * test;
         set(scratch, i, octants << 24 | id);
         i += 1;
     }
-    let whole = (list.end - list.start) * TEST_COST;
-    let parts = NODE_COST + 2 * STEP_COST + entries * TEST_COST / 4;
-    if parts < whole { children } else { 0 }
+    if NODE_COST + 2 * STEP_COST + parts / 4 < whole { children } else { 0 }
 }
 
 /// Lists those ids whose shapes' boxes meet a slab, of all or of a list; behind the end of that.
@@ -512,7 +524,8 @@ pub const fn build_into(
                 Err(error) => return Err(error),
             };
         }
-        let list = match within(extents, scratch, Some(slab), 1, (min[1] - margin, min[1] + reach)) {
+        let list = match within(extents, scratch, Some(slab), 1, (min[1] - margin, min[1] + reach))
+        {
             Ok(list) => list,
             Err(error) => return Err(error),
         };
@@ -570,12 +583,12 @@ pub const fn build_into(
             if list.end > built.scratch {
                 built.scratch = list.end;
             }
-            let children = if level <= levels as usize && list.end - list.start > limits.leaf as usize
-            {
-                cut(extents, scratch, list, &Cell { min, half: side >> 1, margin })
-            } else {
-                0
-            };
+            let children =
+                if level <= levels as usize && list.end - list.start > limits.leaf as usize {
+                    cut(extents, scratch, list, &Cell { min, half: side >> 1, margin })
+                } else {
+                    0
+                };
             if children == 0 {
                 used = match write_leaf(words, used, slot, scratch, list, width) {
                     Ok(used) => used,

@@ -386,5 +386,9 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
             return Err(TreeError::Id);
         }
     }
-    if used == words.len() { Ok(grid.levels() + (deepest - 1) as u8) } else { Err(TreeError::Length) }
+    if used == words.len() {
+        Ok(grid.levels() + (deepest - 1) as u8)
+    } else {
+        Err(TreeError::Length)
+    }
 }

@@ -254,7 +254,8 @@ impl<A: Arithmetic> Octree<'_, A> {
             cell[axis] = if mirror >> axis & 1 != 0 { more } else { before };
         }
         let rows = u32::from(self.cells[1]);
-        let step = |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
+        let step =
+            |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
         let (step_x, step_y, step_z) = (step(0, 1), step(1, 1), step(2, rows));
         let mut row = cell[2].wrapping_mul(rows).wrapping_add(cell[1]).wrapping_add(1);
         let mut x = cell[0];

@@ -687,10 +687,10 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
-        // Eleven bits hold eight cells; times ten: see `per_cell`.
+        // Eleven bits hold eight cells; times thirteen: see `per_cell`.
         let o = o.to_bits() >> (unit & 31) >> 5;
         if (o as u32) < 1 << 11 {
-            (o as u32).wrapping_mul(per as u32) >> 16
+            (o as u32).wrapping_mul(per as u32) >> 20
         } else if o < 0 {
             0
         } else {

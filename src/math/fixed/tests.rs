@@ -272,4 +272,15 @@ proptest! {
             prop_assert!((f64::from(found) - exact).abs() <= wrong, "{found} {exact}");
         }
     }
+
+    #[test]
+    fn whole_cells(o in -3.0..9.0f64, near in -4i32..4, m in 128u8..=255, unit in 0u8..14) {
+        let cell = i32::from(m) << (5 + unit);
+        let per = make::per_cell(m, 5 + unit, 0);
+        for o in [(o * f64::from(cell)) as i32, o as i32 * cell + near] {
+            let found = Fixed::cells_before(I16F16::from_bits(o), per, unit);
+            let exact = if o < 0 { 0 } else { (o / cell) as u32 };
+            prop_assert!(found == exact || exact >= 8 && found >= 8, "{found} {exact}");
+        }
+    }
 }

@@ -104,7 +104,8 @@ fn hostile_words_are_refused() {
     assert_eq!(validate(&[grid([2, 2, 2]), none, none, none, none], 5), Ok(1));
     let rows = [grid([5, 2, 2]), inner(3, 4), one, one, one];
     assert_eq!(validate(&rows, 5), Err(TreeError::Order));
-    let rows = [grid([5, 2, 2]), inner(17, 5), inner(0, 7), inner(2, 7), inner(0, 8), one, one, one];
+    let rows =
+        [grid([5, 2, 2]), inner(17, 5), inner(0, 7), inner(2, 7), inner(0, 8), one, one, one];
     assert_eq!(validate(&rows, 5), Ok(3));
     // A cell that isn't in the grid, a row that is a leaf, and words that are no grid.
     assert_eq!(validate(&[grid([5, 1, 1]), inner(32, 2), one], 5), Err(TreeError::Grid));
