@@ -370,8 +370,8 @@ fn trees_that_are_none() {
     const EMPTY: u32 = LEAF | (MORE - 1);
     let cube = Cube { origin: [0; 3], log2_side: 20 };
     let inner = |children: u32, first: u32| children << 23 | first;
-    // One cell whose side is 128 << 5 steps, in the only row.
-    let grid = 128 << 9 | 5 << 17;
+    // One cell whose side is 128 << 6 steps, in the only row.
+    let grid = 128 << 9 | 6 << 17;
     let of_cell = |words: &[u32]| [&[grid, inner(1, 2)], words].concat();
     let tree = |words: &[u32], shapes| Fixed::octree(words, shapes, &cube, -16).err();
     let error = |words: &[u32], shapes| tree(&of_cell(words), shapes);

@@ -411,10 +411,10 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// What a ray of the speed `d ≥ 0` takes for a length along an axis.
     fn pace(d: Self::Unit) -> Self::Pace;
     /// What it takes for `a ≥ 0`; at least [`FAR`](Self::FAR) where that is larger, and too little by any
-    /// amount where the speed is below 2⁻¹⁴.
+    /// amount where the speed is below 9·2⁻¹⁷.
     fn takes(a: Self::Length, pace: &Self::Pace) -> Self::Length;
     /// For one axis of an octree's grid: what it takes for `left` and for a cell's side, no less than
-    /// `left` but for what a position may be wrong. In fixed point the side is below 2¹³·2^`unit` steps.
+    /// `left` but for what a position may be wrong. In fixed point the side is below 2¹⁴·2^`unit` steps.
     fn spans(
         left: Self::Length,
         cell: Self::Length,

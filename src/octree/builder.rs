@@ -10,12 +10,12 @@
 //! average.
 //!
 //! **Margin.** A walk is less exact than a shape's own test, so shapes are listed in all cells
-//! they come near. With a fixed-point walk, in 2⁻¹³ of a cell's side (or up to half of that): a position
-//! is rounded to 1; quotients are 1 wrong, and what eight cells' quotients add up to 7; their relative
-//! error is another; halving a span loses at most 1 a level where the ray is fast, and a component below
-//! 2⁻¹⁴ is taken for 2⁻¹⁴, which drifts by up to √3·4 = 7 where it is slow; a sphere's test keeps sixteen
-//! bits of the radius, 2. Together less than 32. The test of a small sphere and the rounding of an
-//! extent add a few steps: 8.
+//! they come near. With a fixed-point walk, in 2⁻¹⁴ of a cell's side (or up to half of that): a position
+//! is rounded to 1; a sphere's test keeps sixteen bits of the radius, 2. Where the ray is fast, quotients
+//! are 1 wrong, and what eight cells' quotients add up to 7; their relative error is 2; halving a span loses
+//! at most 1 a level. Where it is slow, a component below 9·2⁻¹⁷ is taken for that, which drifts by up to
+//! √3·9 = 16. Either way it is less than 32. The test of a small sphere and the rounding of an extent add a
+//! few steps: 8.
 
 use super::Extent;
 use super::node::{self, Grid, IdWidth, MAX_CELLS, MAX_LEVELS, ROOM};
@@ -50,14 +50,14 @@ pub struct Limits {
     /// A cell of so many shapes or fewer is never cut.
     pub leaf: u8,
     /// Cells are enlarged by 2^−precision of what eight cells of the grid span, up to twice that; at most
-    /// 24. Fixed point needs 11; floats can do with 16, unless rays start hundreds of sides away.
+    /// 24. Fixed point needs 12; floats can do with 16, unless rays start hundreds of sides away.
     pub precision: u8,
 }
 
 impl Limits {
-    /// Good for all arithmetics: ten levels (where the margin is half a cell or more), leaves as
+    /// Good for all arithmetics: ten levels (where the margin is a quarter of a cell or more), leaves as
     /// the cost wants them.
-    pub const DEFAULT: Self = Self { levels: 10, leaf: 2, precision: 11 };
+    pub const DEFAULT: Self = Self { levels: 10, leaf: 2, precision: 12 };
 }
 
 impl Default for Limits {

@@ -106,7 +106,7 @@ pub(super) struct Grid {
 }
 
 /// A cell's side has at least so many trailing zeros: it can be halved as often.
-pub(super) const LEAST_SHIFT: u8 = 5;
+pub(super) const LEAST_SHIFT: u8 = 6;
 pub(super) const MOST_SHIFT: u8 = 22;
 
 impl Grid {

@@ -296,15 +296,18 @@ impl<A: Arithmetic> Octree<'_, A> {
             }
             if exit_y < exit_z {
                 entry = exit_y;
+                if entry >= bound {
+                    return;
+                }
                 exit_y = exit_y + whole[1];
                 row = row.wrapping_add(step_y);
             } else {
                 entry = exit_z;
+                if entry >= bound {
+                    return;
+                }
                 exit_z = exit_z + whole[2];
                 row = row.wrapping_add(step_z);
-            }
-            if entry >= bound {
-                return;
             }
             let Some(&next) = self.words.get(row as usize) else { return };
             word = next;

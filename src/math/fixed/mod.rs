@@ -649,8 +649,9 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn pace(d: Unit) -> FixedPace {
-        // Slower than 2⁻¹⁴, a ray drifts less than the margin that an octree's builder leaves.
-        let d = if d.to_bits() < 8 { 8 } else { d.to_bits() as u32 };
+        // Slower than this, a ray drifts less than the margin that an octree's builder leaves; and what
+        // eight cells and a little take stays below 2³¹.
+        let d = if d.to_bits() < 9 { 9 } else { d.to_bits() as u32 };
         let (m, z) = root::normalize_large(d << 14);
         FixedPace { y_q16: reciprocal_q28(m) >> 12, down: 17u32.wrapping_sub(z) }
     }
@@ -677,7 +678,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn spans(left: I16F16, cell: I16F16, pace: &FixedPace, unit: u8) -> (i32, i32) {
-        // Below 2¹³ times up to 2¹⁷.
+        // Below 2¹⁴ times up to 2¹⁷.
         let f = |a: I16F16| {
             let a = (a.to_bits() >> (unit & 31)) as u32;
             (a.wrapping_mul(pace.y_q16) >> (pace.down & 31)) as i32
@@ -688,7 +689,7 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
         // Eleven bits hold eight cells; times thirteen: see `per_cell`.
-        let o = o.to_bits() >> (unit & 31) >> 5;
+        let o = o.to_bits() >> (unit & 31) >> 6;
         if (o as u32) < 1 << 11 {
             (o as u32).wrapping_mul(per as u32) >> 20
         } else if o < 0 {

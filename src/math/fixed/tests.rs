@@ -261,8 +261,8 @@ proptest! {
     }
 
     #[test]
-    fn spans_to_13_bits(left in 0.0..1.0f64, d in 0.0002..1.0f64, m in 128i32..256, unit in 0u8..12) {
-        let cell = m << (5 + unit);
+    fn spans_to_14_bits(left in 0.0..1.0f64, d in 0.0002..1.0f64, m in 128i32..256, unit in 0u8..12) {
+        let cell = m << (6 + unit);
         let left = (left * f64::from(cell)) as i32;
         let d = make::unit(d).unwrap();
         let (exit, whole) = Fixed::spans(I16F16::from_bits(left), I16F16::from_bits(cell), &Fixed::pace(d), unit);
@@ -275,8 +275,8 @@ proptest! {
 
     #[test]
     fn whole_cells(o in -3.0..9.0f64, near in -4i32..4, m in 128u8..=255, unit in 0u8..14) {
-        let cell = i32::from(m) << (5 + unit);
-        let per = make::per_cell(m, 5 + unit, 0);
+        let cell = i32::from(m) << (6 + unit);
+        let per = make::per_cell(m, 6 + unit, 0);
         for o in [(o * f64::from(cell)) as i32, o as i32 * cell + near] {
             let found = Fixed::cells_before(I16F16::from_bits(o), per, unit);
             let exact = if o < 0 { 0 } else { (o / cell) as u32 };

@@ -224,7 +224,7 @@ macro_rules! against_a_list {
                     let mut random = Random(seed);
                     let all = spheres(&mut random, kind, count);
                     let levels = if kind == 2 || kind == 3 { levels.min(8) } else { levels };
-                    let scene = Scene::new(&all, Limits { levels, leaf, precision: 11 });
+                    let scene = Scene::new(&all, Limits { levels, leaf, precision: 12 });
                     scene.check(&mut random, 50);
                 }
             }
