@@ -143,9 +143,13 @@ pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
     jobs.iter().map(traced).collect()
 }
 
-/// The firmware of the first display, for one core.
-pub(crate) fn image() -> Result<PathBuf, String> {
-    build(&DISPLAYS[0])
+/// The firmware of the first display, for one core, with what these jobs draw.
+pub(crate) fn image(jobs: &[Job]) -> Result<PathBuf, String> {
+    if jobs.iter().any(|job| job.scene.is_for_counting()) {
+        build_with(&DISPLAYS[0], "rtt,one-core,counted")
+    } else {
+        build(&DISPLAYS[0])
+    }
 }
 
 /// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
