@@ -82,14 +82,6 @@ impl Sampling {
         }
     }
 
-    /// The side of sparse sampling's blocks, 0 for others.
-    pub(super) const fn side(self) -> u8 {
-        match self {
-            Self::Sparse { side, .. } => side,
-            _ => 0,
-        }
-    }
-
     /// Whether the numbers are within their ranges.
     pub(super) const fn check(self) -> Result<(), FrameError> {
         match self {
