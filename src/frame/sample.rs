@@ -87,7 +87,12 @@ impl<A: Arithmetic> Sample<A> {
             first = if signature == 0 { first } else { signature };
         }
         let limit = if costly == 0 { threshold } else { threshold.saturating_add(threshold >> 1) };
-        differ_in_color(&[*self, *b, *c, *d], if same { limit } else { limit - (limit >> 2) })
+        let limit = if same { limit } else { limit.wrapping_sub(limit >> 2) };
+        (0..3).any(|i| {
+            let [a, b, c, d] = four.map(|sample| sample.srgb[i]);
+            let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
+            high.wrapping_sub(low) > limit
+        })
     }
 
     /// As if no ray had been sent.

@@ -14,10 +14,12 @@ use crate::math::Arithmetic;
 /// So many blocks beside the columns that are asked for have their corners traced.
 const BESIDE: usize = 3;
 
+#[inline(always)]
 fn at<A: Arithmetic>(samples: &[Sample<A>], place: usize) -> Sample<A> {
     samples.get(place).copied().unwrap_or(Sample::NONE)
 }
 
+#[inline(always)]
 fn put<A: Arithmetic>(samples: &mut [Sample<A>], place: usize, sample: Sample<A>) {
     if let Some(to) = samples.get_mut(place) {
         *to = sample;
@@ -157,7 +159,10 @@ impl<A: Arithmetic> Sparse<A> {
     /// those known ahead.
     fn next_row(&mut self, samples: &mut [Sample<A>]) {
         let Layout { stride, step, lower, next, all, blocks, .. } = self.layout;
-        samples.copy_within(lower..lower + stride, 0);
+        for place in 0..stride {
+            let edge = at(samples, lower + place);
+            put(samples, place, edge);
+        }
         forget(samples, stride, lower + stride);
         for block in 0..=blocks {
             let corner = at(samples, next + block);
@@ -299,34 +304,28 @@ impl<A: Arithmetic> Sparse<A> {
                 continue;
             }
             let places = layout.sides(corner, side);
-            let corners = layout.corners(corner, side);
+            let [p, q, r, s] = layout.corners(corner, side);
+            let own = layout.middle(corner, side);
+            let (across, along) = (layout.offset(side, 0), layout.offset(0, side));
             while self.which < 4 {
                 let which = self.which;
                 self.which += 1;
                 // Its ends, the middle of the block on its other side, and where it is.
-                let far = layout.offset(side, 0);
-                let middle_at = layout.middle(corner, side);
                 let (ends, other, right, below) = match which {
-                    0 => ((0, 2), (x > 0).then(|| middle_at - far), 0, half),
-                    1 => ((1, 3), Some(middle_at + far), side, half),
-                    2 => {
-                        let above = layout.offset(0, side);
-                        ((0, 1), (down > 0).then(|| middle_at - above), half, 0)
-                    }
+                    0 => ((p, r), (x > 0).then(|| own.wrapping_sub(across)), 0, half),
+                    1 => ((q, s), Some(own + across), side, half),
+                    // The row of blocks above has decided its lower edge, if there is one.
+                    2 if down == 0 && self.row > 0 => continue,
+                    2 => ((p, q), (down > 0).then(|| own.wrapping_sub(along)), half, 0),
                     _ => {
                         let within = down + side < layout.side;
-                        let below = layout.offset(0, side);
-                        ((2, 3), within.then(|| middle_at + below), half, side)
+                        ((r, s), within.then_some(own + along), half, side)
                     }
                 };
-                // The row of blocks above has decided its lower edge, if there is one.
-                if which == 2 && down == 0 && self.row > 0 {
-                    continue;
-                }
                 let place = places[usize::from(which & 3)];
                 let other = other.map(|place| at(samples, place)).filter(Sample::is_known);
                 let other = other.unwrap_or(middle);
-                let (a, b) = (at(samples, corners[ends.0]), at(samples, corners[ends.1]));
+                let (a, b) = (at(samples, ends.0), at(samples, ends.1));
                 if !at(samples, place).is_known()
                     && a.is_worth_a_ray(&b, &middle, &other, self.threshold)
                 {
