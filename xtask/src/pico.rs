@@ -26,14 +26,16 @@ struct Display {
     size: (u16, u16),
     /// Where they begin in the controller's memory.
     offset: (u16, u16),
+    /// The controller's memory, before it is turned.
+    native: (u16, u16),
 }
 
 /// All of them, the one of the default features first.
 const DISPLAYS: [Display; 4] = [
-    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0) },
-    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0) },
-    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26) },
-    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0) },
+    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0), native: (240, 320) },
+    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0), native: (240, 320) },
+    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26), native: (132, 162) },
+    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0), native: (240, 320) },
 ];
 /// What the checks draw: the emulator does some ten million cycles a second, if nothing else runs.
 const SMALL: (u16, u16) = (60, 45);
@@ -286,8 +288,9 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     python.arg("-B").arg(boards().join("pico/emulate/emulate.py"));
     python.args(order.erase.then_some("--erase")).arg(image);
     python.arg(format!("{} {}", order.job, order.way));
-    let Display { size, offset, .. } = order.display;
-    python.args([size.0, size.1, offset.0, offset.1].map(|n| n.to_string())).arg(&dump);
+    let Display { size, offset, native, .. } = order.display;
+    let numbers = [size.0, size.1, offset.0, offset.1, native.0, native.1];
+    python.args(numbers.map(|n| n.to_string())).arg(&dump);
     python.args(order.stick.iter().map(u32::to_string));
     let text = output(&mut python)?;
     let line = text

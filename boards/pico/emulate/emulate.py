@@ -1,6 +1,7 @@
-"""Runs the Pico's firmware: emulate.py [--erase] ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]…
+"""Runs the Pico's firmware: emulate.py [--erase] ELF ORDER WIDTH HEIGHT X Y ACROSS DOWN OUTPUT [STICK]…
 
-The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
+The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory, which has ACROSS by DOWN
+before it is turned. ORDER is
 written where the firmware looks for it; of a firmware that doesn't look, as the template, it is `-`,
 and the LED (GPIO 25) is the mark. When the frame is drawn, what the display then holds goes to
 OUTPUT as RGB565, big-endian, and a line to standard output:
@@ -72,7 +73,9 @@ def tell_of_aborts(dma):
 def main():
     words = sys.argv[1:]
     erase = words[:1] == ["--erase"]
-    elf, order, width, height, x, y, output, *stick = words[erase:]
+    elf, order, *numbers, output = words[erase:][:9]
+    stick = words[erase:][9:]
+    width, height, x, y, across, down = map(int, numbers)
     logging.disable(logging.CRITICAL)
     chip = build_rp2040("pico")
     simulator = Simulator(rp2040=chip)
@@ -80,7 +83,7 @@ def main():
     flash, free = load(elf, order)
     chip.flash[: len(flash)] = flash
     blank = BREAKPOINT * (len(flash) // len(BREAKPOINT))
-    display = Display(int(width), int(height), (int(x), int(y)))
+    display = Display(width, height, (x, y), (across, down))
     display.attach(chip)
 
     tell_of_aborts(chip.dma)
