@@ -32,6 +32,11 @@ pub(crate) fn sizes(path: &Path) -> Result<Sizes, String> {
     })
 }
 
+/// Bytes of RAM that hold statics, of a program by cortex-m-rt.
+pub(crate) fn static_bytes(path: &Path) -> Result<u64, String> {
+    Ok(symbol(path, "__sheap")?.0 - symbol(path, "__sdata")?.0)
+}
+
 /// Where a program, linked with its relocations kept, calls the functions that panics start in:
 /// the caller and the callee, with the source lines that were inlined there, the innermost first.
 /// The lines come from a twin without relocations.
