@@ -171,15 +171,20 @@ pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A:
 }
 
 /// Does something with all of a slice, or with the first where there is no more: no loop is left
-/// then.
-#[inline(always)]
-pub(crate) fn each<T>(all: &[T], several: bool, mut act: impl FnMut(&T)) {
-    if several {
-        all.iter().for_each(act);
-    } else if let Some(first) = all.first() {
-        act(first);
-    }
+/// then. A macro, since a closure that two places call becomes a function, and what it
+/// captures then lies in memory.
+macro_rules! each {
+    ($all:expr, $several:expr, |$one:ident| $act:expr) => {
+        if $several {
+            for $one in $all {
+                $act
+            }
+        } else if let Some($one) = $all.first() {
+            $act
+        }
+    };
 }
+pub(crate) use each;
 
 /// Whether anything is random about rays.
 #[inline(always)]

@@ -44,7 +44,7 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         return;
     }
     let mut number = 0;
-    each(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), |light| {
+    each!(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), |light| {
         if let Some(radiance) = of_light(scene, &mut at, light, number, scratch, tally) {
             *sum = rgb(sum, &radiance, A::gather);
         }

@@ -4,7 +4,7 @@
 //! kinds here, once, out of line: their code is shared, and the short loops keep the registers.
 
 use crate::math::Arithmetic;
-use crate::scene::uses::{self, has};
+use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Scene, Shapes, with_shape};
 use crate::shape::{MaterialId, Meeting, Ray, Shape, Surface};
 
@@ -84,10 +84,12 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
         let (found, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;
         Some(Place::new(found, (ray, meeting, p)))
-    } else {
+    } else if has_others(USES) {
         let found = surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
         *p = found.local;
         Some(Place::new(found, (ray, meeting, p)))
+    } else {
+        None
     }
 }
 

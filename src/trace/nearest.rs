@@ -151,7 +151,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
     let mut id = scene.first_plane;
-    each(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
+    each!(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
         tally.test();
         if id != ray.leaving.shape {
             best.take(plane.meet::<USES>(ray, best.distance), id);
