@@ -180,6 +180,11 @@ pub(crate) fn check(report: &mut Report) {
                 Ok(frame.cycles)
             }));
         }
+        let showcase = job(SceneName::Showcase, TINY);
+        report.check(&format!("Pico with {} (rp2040py): {showcase}", display.name), || {
+            let order = Order { display, job: showcase, way: WAYS[0], stick: &[], erase: true };
+            compare(&order, &emulate(&image, &order)?)
+        });
         if display.name == DISPLAYS[0].name {
             for transfers in TRANSFERS {
                 let name = format!("Pico (rp2040py): SPI stands still after {transfers:?} bytes");
