@@ -172,9 +172,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         columns: (u16, u16),
     ) -> Rgb<A::Radiance> {
         let sampling = self.settings.sampling;
-        if !uses::has_samplings(USES) {
-            self.trace(row, x, 128)
-        } else if !has(USES, uses::SPARSE) && sampling == Sampling::Center {
+        let center = !has(USES, uses::SPARSE) && sampling == Sampling::Center;
+        if !uses::has_samplings(USES) || center {
             self.trace(row, x, 128)
         } else if has(USES, uses::SPARSE)
             && matches!(sampling, Sampling::Center | Sampling::Sparse { .. })

@@ -146,6 +146,12 @@ pub(crate) const fn has_others(uses: u64) -> bool {
         != 0
 }
 
+/// Whether there are spheres and planes, and nothing else; the spheres in a list.
+#[inline(always)]
+pub(crate) const fn has_spheres_and_planes(uses: u64) -> bool {
+    has(uses, PLANES) && !has_others(uses) && !has(uses, TREE) && !has(uses, INSTANCES)
+}
+
 /// Whether there may be diffuse interreflection.
 #[inline(always)]
 pub(crate) const fn has_indirect(uses: u64) -> bool {
@@ -170,17 +176,20 @@ pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A:
     if has(USES, COLORED_RAYS) || has(USES, ABSORPTION) { *k } else { [k[0]; 3] }
 }
 
-/// Does something with all of a slice, or with the first where there is no more: no loop is left
-/// then. A macro, since a closure that two places call becomes a function, and what it
-/// captures then lies in memory.
+/// Does something with all of a slice and their numbers, counted on from one; or with the first alone,
+/// where there is no more: no loop is left then. A macro, since a closure that two places call
+/// becomes a function, and what it captures then lies in memory.
 macro_rules! each {
-    ($all:expr, $several:expr, |$one:ident| $act:expr) => {
+    ($all:expr, $several:expr, $from:expr, |$one:ident, $number:ident| $act:expr) => {
         if $several {
+            let mut $number = $from;
             for $one in $all {
-                $act
+                $act;
+                $number += 1;
             }
         } else if let Some($one) = $all.first() {
-            $act
+            let $number = $from;
+            $act;
         }
     };
 }

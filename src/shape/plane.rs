@@ -175,28 +175,34 @@ impl<A: Arithmetic> Plane<A> {
                 p[i] = self.offset;
             }
         }
-        if t < A::HORIZON { *p } else { self.settle_far(ray, p) }
+        if t < A::HORIZON {
+            return *p;
+        }
+        let (settled, local) = self.settle_far(*ray, *p);
+        *p = settled;
+        local
     }
 
-    /// The same beyond the horizon. The point keeps within positions' range.
+    /// The same beyond the horizon: both places. The point keeps within positions' range. By value: what
+    /// a reference is taken of can't stay in registers.
     #[inline(never)]
-    fn settle_far(&self, ray: &Ray<A>, p: &mut [A::Length; 3]) -> [A::Length; 3] {
-        for x in p.iter_mut() {
+    fn settle_far(&self, ray: Ray<A>, mut p: [A::Length; 3]) -> ([A::Length; 3], [A::Length; 3]) {
+        for x in &mut p {
             *x = if *x > A::FAR { A::FAR } else { *x };
             *x = if *x < -A::FAR { -A::FAR } else { *x };
         }
         if self.axis >= 3 {
-            let height = A::project(p, &self.normal) - self.offset;
-            *p = A::along(p, -height, &self.normal);
+            let height = A::project(&p, &self.normal) - self.offset;
+            p = A::along(&p, -height, &self.normal);
         }
-        let (left, slope) = self.ahead::<{ uses::ALL }>(ray);
+        let (left, slope) = self.ahead::<{ uses::ALL }>(&ray);
         let mut local = A::endless_point(&ray.origin, left, slope, &ray.direction);
         for i in 0..3 {
             if i == usize::from(self.axis) {
                 local[i] = self.offset;
             }
         }
-        local
+        (p, local)
     }
 
     /// See [`Shape::surface`].

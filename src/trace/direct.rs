@@ -43,12 +43,10 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
         *sum = rgb(sum, &selected(scene, Point::of(&at), scratch, tally), A::gather);
         return;
     }
-    let mut number = 0;
-    each!(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), |light| {
+    each!(scene.parts.lights, has(USES, uses::SEVERAL_LIGHTS), 0, |light, number| {
         if let Some(radiance) = of_light(scene, &mut at, light, number, scratch, tally) {
             *sum = rgb(sum, &radiance, A::gather);
         }
-        number += 1;
     });
     if has(USES, uses::AREA_LIGHTS) && !scene.parts.area_lights.is_empty() {
         *sum = rgb(sum, &areas(scene, Point::of(&at), scratch, tally), A::gather);

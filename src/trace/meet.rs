@@ -6,7 +6,7 @@
 use crate::math::Arithmetic;
 use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Scene, Shapes, with_shape};
-use crate::shape::{MaterialId, Meeting, Ray, Shape, Surface};
+use crate::shape::{MaterialId, Meeting, Plane, Ray, Shape, Sphere, Surface};
 
 /// Where a ray meets a shape, unless it is one that the ray leaves and can't meet again.
 #[inline(always)]
@@ -58,6 +58,33 @@ impl<A: Arithmetic> Place<A> {
         let outside = A::leave(p, &surface.geometric, meeting.distance);
         Self { surface, material, local, mirror, outside }
     }
+
+    /// On a sphere; puts `p` back on it.
+    #[inline(always)]
+    pub(super) fn on_sphere(
+        sphere: &Sphere<A>,
+        ray: &Ray<A>,
+        meeting: &Meeting<A>,
+        p: &mut [A::Length; 3],
+    ) -> Self {
+        let surface = sphere.surface(ray, meeting, p);
+        let found = Found { surface, material: sphere.material(), local: *p };
+        Self::new(found, (ray, meeting, p))
+    }
+
+    /// On a plane; puts `p` back on it.
+    #[inline(always)]
+    pub(super) fn on_plane<const USES: u64>(
+        plane: &Plane<A>,
+        ray: &Ray<A>,
+        meeting: &Meeting<A>,
+        p: &mut [A::Length; 3],
+    ) -> Self {
+        let local = plane.settle::<USES>(ray, meeting.distance, p);
+        let surface = plane.surface_seen::<USES>(ray);
+        let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
+        Self { surface, material: plane.material(), local, mirror, outside }
+    }
 }
 
 /// The surface and material where the ray met the shape of this number; puts `p` back on it.
@@ -71,16 +98,11 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
 ) -> Option<Place<A>> {
     let (parts, shapes) = (&scene.parts, &scene.shapes);
     if let Some(sphere) = shapes.spheres.get(id as usize) {
-        let surface = sphere.surface(ray, meeting, p);
-        let found = Found { surface, material: sphere.material(), local: *p };
-        Some(Place::new(found, (ray, meeting, p)))
+        Some(Place::on_sphere(sphere, ray, meeting, p))
     } else if has(USES, uses::PLANES)
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
-        let local = plane.settle::<USES>(ray, meeting.distance, p);
-        let surface = plane.surface_seen::<USES>(ray);
-        let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
-        Some(Place { surface, material: plane.material(), local, mirror, outside })
+        Some(Place::on_plane::<USES>(plane, ray, meeting, p))
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
         let (found, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;

@@ -150,8 +150,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
     // Planes first: their distance bounds the walk.
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.first_plane;
-    each!(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
+    each!(planes, has(USES, uses::SEVERAL_PLANES), scene.first_plane, |plane, id| {
         tally.test();
         if id != ray.leaving.shape {
             let meeting = plane.meet::<USES>(ray, best.distance);
@@ -165,7 +164,6 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
             }
             best.take(meeting, id);
         }
-        id += 1;
     });
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {

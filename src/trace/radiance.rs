@@ -8,14 +8,14 @@ use super::area::front_before;
 use super::detail::{self, bumped, painted};
 use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
-use super::meet::surface_at;
+use super::meet::{Place, surface_at};
 use super::nearest::{Hit, nearest};
 use super::sight::may_be_few;
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
-use crate::scene::uses::{self, grey, has, has_indirect};
+use crate::scene::uses::{self, grey, has, has_indirect, has_spheres_and_planes};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -238,7 +238,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
                             first = hit.distance;
                         }
                         let key = (key, seen);
-                        self.shade(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
+                        self.shade_hit(&mut path, &hit, key, &mut sum, work, &mut waiting, tally)
                     }
                 }
             };
@@ -259,15 +259,15 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         }
     }
 
-    /// Adds the terms of a hit; turns `path` into the next ray to follow, if there is one, and says
-    /// of which kind it is. Of two, the one that passes through has to wait.
+    /// Shades a hit, see [`shade`](Self::shade). Of scenes that hold spheres and planes alone, either kind
+    /// has a copy of the shading: of a plane most is known before.
     #[inline(always)]
     #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
-    fn shade<T: Tally, const MAX_DEPTH: usize>(
+    fn shade_hit<T: Tally, const MAX_DEPTH: usize>(
         &self,
         path: &mut Path<A>,
         hit: &Hit<A>,
-        (key, seen): (u32, bool),
+        from: (u32, bool),
         sum: &mut Rgb<A::Radiance>,
         work: &mut Work<A, MAX_DEPTH>,
         waiting: &mut usize,
@@ -276,8 +276,37 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let ray = &path.ray;
-        let place = surface_at(scene, hit.shape, ray, &meeting, &mut p)?;
+        if !has_spheres_and_planes(USES) {
+            let place = surface_at(scene, hit.shape, &path.ray, &meeting, &mut p)?;
+            return self.shade(path, hit, (place, p), from, sum, work, waiting, tally);
+        }
+        if let Some(sphere) = scene.shapes.spheres.get(hit.shape as usize) {
+            let place = Place::on_sphere(sphere, &path.ray, &meeting, &mut p);
+            self.shade(path, hit, (place, p), from, sum, work, waiting, tally)
+        } else {
+            let plane =
+                scene.parts.planes.get(hit.shape.wrapping_sub(scene.first_plane) as usize)?;
+            let place = Place::on_plane::<USES>(plane, &path.ray, &meeting, &mut p);
+            self.shade(path, hit, (place, p), from, sum, work, waiting, tally)
+        }
+    }
+
+    /// Adds the terms of a hit; turns `path` into the next ray to follow, if there is one, and says
+    /// of which kind it is. Of two, the one that passes through has to wait.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
+    fn shade<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        path: &mut Path<A>,
+        hit: &Hit<A>,
+        (place, p): (Place<A>, [A::Length; 3]),
+        (key, seen): (u32, bool),
+        sum: &mut Rgb<A::Radiance>,
+        work: &mut Work<A, MAX_DEPTH>,
+        waiting: &mut usize,
+        tally: &mut T,
+    ) -> Option<RayKind> {
+        let scene = self.scene;
         let (mut surface, mut mirror) = (place.surface, place.mirror);
         let material = scene.material_at(place.material, &place.local)?;
 
@@ -293,7 +322,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         if has(USES, uses::BUMPS)
             && let Some(texture) = material.bump()
         {
-            surface = bumped(scene, texture, surface, hit.shape, place.local, ray.direction);
+            let direction = path.ray.direction;
+            surface = bumped(scene, texture, surface, hit.shape, place.local, direction);
             mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         }
         if has(USES, uses::ABSORPTION)

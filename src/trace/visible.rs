@@ -202,16 +202,14 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         }
     }
     let planes = if has(USES, uses::PLANES) { parts.planes } else { &[] };
-    let mut id = scene.first_plane;
     let mut found = None;
-    each!(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
+    each!(planes, has(USES, uses::SEVERAL_PLANES), scene.first_plane, |plane, id| {
         if found.is_none() {
             tally.test();
             let left = id == ray.leaving.shape;
             if !left && plane.blocks::<USES>(ray, limit) {
                 found = Some(id);
             }
-            id += 1;
         }
     });
     found

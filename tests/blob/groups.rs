@@ -175,7 +175,7 @@ fn groups_solids_and_virtual_lights_are_read_as_they_were_written() {
         spec.material.map_or(instance, |m| instance.with_material(m))
     });
     let settings = VirtualLightsSettings::<A>::new(USE);
-    let materials = PLAIN.map(|spec| Material::<A>::new(spec));
+    let materials = PLAIN.map(Material::<A>::new);
     let lights = [Light::<A>::new(LIGHTS[0])];
     let scene = Scene::<A>::new(Parts {
         polygons: own.polygons,

@@ -59,7 +59,7 @@ pub(super) fn kinds() -> Kinds {
         cones: vec![Cone::<A>::new([-1.5, 1.0, 4.0], 0.3, [-1.5, 2.0, 4.0], 0.0, 0)],
         planes: vec![Plane::<A>::new(up, -0.01, 2)],
         uvs: vec![TriangleUv::new(UV); 2],
-        records: RECORDS.map(|spec| Record::<A>::new(spec)).to_vec(),
+        records: RECORDS.map(Record::<A>::new).to_vec(),
         words: vec![0; 4096],
         cube: Cube { origin: [0; 3], log2_side: 0 },
     };
@@ -120,11 +120,11 @@ fn what_was_written_is_what_is_read() {
     let kinds = kinds();
     let content = content(&kinds);
     let blob = written(&content);
-    assert!(blob.bytes().len() % ALIGNMENT == 0);
-    let materials = MATERIALS.map(|spec| Material::<A>::new(spec));
-    let lights = LIGHTS.map(|spec| Light::<A>::new(spec));
+    assert!(blob.bytes().len().is_multiple_of(ALIGNMENT));
+    let materials = MATERIALS.map(Material::<A>::new);
+    let lights = LIGHTS.map(Light::<A>::new);
     let tree = Octree::<A>::try_new(&kinds.words, 9, &kinds.cube, STEP).unwrap();
-    let textures = TEXTURES.map(|spec| Texture::<A>::new(spec));
+    let textures = TEXTURES.map(Texture::<A>::new);
     let absorptions = ABSORPTIONS.map(|[a, b]| Absorption::<A>::new(a, b));
     let fan = AreaLight::<A>::fan::<3>(&LAMP);
     let area_lights = AREA_LIGHTS.map(|spec| AreaLight::<A>::new(spec));

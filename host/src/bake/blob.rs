@@ -138,11 +138,7 @@ pub fn parts_of<A: Construct>(counts: &Counts) -> Vec<(&'static str, usize, usiz
     all.push((if words == 1 { "octree word" } else { "octree words" }, words, 4 * words));
     let list = |count: u32, size: usize| (count as usize, size * count as usize);
     for (one, several, (count, bytes)) in [
-        (
-            "texture coordinates",
-            "texture coordinates",
-            list(counts.uvs, size_of::<TriangleUv>()),
-        ),
+        ("texture coordinates", "texture coordinates", list(counts.uvs, size_of::<TriangleUv>())),
         ("irradiance record", "irradiance records", list(counts.records, size_of::<Record<A>>())),
         (
             "virtual light",

@@ -11,7 +11,7 @@
 //! also if the one beside, above or below in the same block of side 4 would be and three of its corners
 //! are samples. What isn't traced is the mean of what lies around it.
 //!
-//! Samples are told apart by colour: where the rays hit different things or shadows, half the
+//! Samples are told apart by colour: where the rays hit different things or shadows, three quarters of the
 //! difference is enough; where all four took many rays, a ray is worth it from half as much again. Whether
 //! a side is traced that two rows of blocks share, the upper one says, since it is drawn
 //! first. Beyond the right and the lower edge of the picture a block's corners are the last pixels' samples.
