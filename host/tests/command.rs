@@ -212,10 +212,39 @@ fn wrong_options() {
 fn an_output_that_cannot_be_written() {
     let place = tempfile::tempdir().unwrap();
     let scene = scene("limit");
-    let arguments = ["render", &scene, "--size", "8x8", "-o", "nowhere/x.png"];
+    std::fs::create_dir(place.path().join("folder.png")).unwrap();
+    std::fs::create_dir(place.path().join("folder.bin")).unwrap();
+    for (command, out, says) in [
+        (
+            "render",
+            "nowhere/x.png",
+            "nowhere/x.png: can't be written: there is no directory nowhere\n",
+        ),
+        (
+            "render",
+            "folder.png",
+            "folder.png: can't be written: it is a directory; give a file's name\n",
+        ),
+        (
+            "bake",
+            "nowhere/x.bin",
+            "nowhere/x.bin: can't be written: there is no directory nowhere\n",
+        ),
+        (
+            "bake",
+            "folder.bin",
+            "folder.bin: can't be written: it is a directory; give a file's name\n",
+        ),
+    ] {
+        let output = whitted(place.path(), &[command, &scene, "--size", "8x8", "-o", out]);
+        assert_eq!(errors(&output), format!("whitted: {says}"));
+        assert_eq!(output.status.code(), Some(2));
+    }
+    let arguments = ["render", &scene, "--size", "8x8", "--stats", "nowhere/x.json"];
     let output = whitted(place.path(), &arguments);
-    assert!(errors(&output).contains("nowhere/x.png: can't be written: "), "{}", errors(&output));
-    assert_eq!(output.status.code(), Some(1));
+    assert!(errors(&output).contains("x.json: can't be written: there is no directory nowhere"));
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(files(place.path()), ["folder.bin", "folder.png"]);
 }
 
 #[cfg(all(unix, not(target_os = "macos")))]
