@@ -11,8 +11,17 @@ fn main() {
     // A chip with cores of two kinds has two.
     let other = board.join("memory-riscv32.x");
     let map = if riscv && other.exists() { other } else { board.join("memory.x") };
-    fs::copy(&map, out.join("memory.x")).expect("a board has a memory.x");
-    println!("cargo::rerun-if-changed={}", map.display());
+    let mut parts = vec![map.clone()];
+    // What is copied to RAM; riscv-rt has no such way for more than .data.
+    if env::var_os("CARGO_FEATURE_RAM").is_some() && !riscv {
+        parts.push(board.join("../ram.x"));
+    }
+    let mut text = String::new();
+    for part in parts {
+        text += &fs::read_to_string(&part).expect("a board has a memory.x");
+        println!("cargo::rerun-if-changed={}", part.display());
+    }
+    fs::write(out.join("memory.x"), text).expect("cargo made the directory");
     println!("cargo::rustc-link-search={}", out.display());
     // Sections needn't start on a page: without this, gaps of up to 64 KiB appear in flash.
     println!("cargo::rustc-link-arg-bins=--nmagic");

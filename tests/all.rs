@@ -7,6 +7,7 @@ mod area_lights;
 mod blob;
 mod errors;
 mod golden;
+mod horizon;
 mod instances;
 mod interreflection;
 mod light_order;

@@ -369,37 +369,49 @@ fn trees_that_are_none() {
     const MORE: u32 = 1 << 30;
     const EMPTY: u32 = LEAF | (MORE - 1);
     let cube = Cube { origin: [0; 3], log2_side: 20 };
-    let error = |words: &[u32], shapes| Fixed::octree(words, shapes, &cube, -16).err();
     let inner = |children: u32, first: u32| children << 23 | first;
-    assert_eq!(error(&[], 0), None);
+    // One cell whose side is 128 << 6 steps, in the only row.
+    let grid = 128 << 9 | 6 << 17;
+    let of_cell = |words: &[u32]| [&[grid, inner(1, 2)], words].concat();
+    let tree = |words: &[u32], shapes| Fixed::octree(words, shapes, &cube, -16).err();
+    let error = |words: &[u32], shapes| tree(&of_cell(words), shapes);
+    assert_eq!(tree(&[], 0), None);
+    assert_eq!(tree(&[grid, inner(0, 2)], 1), None);
     assert_eq!(error(&[EMPTY], 1), None);
-    assert_eq!(error(&[inner(1, 1), EMPTY], 1), None);
+    assert_eq!(error(&[inner(1, 3), EMPTY], 1), None);
 
     assert_eq!(error(&[EMPTY], 1 << 23), Some(TreeError::TooManyShapes));
-    assert_eq!(error(&[inner(1, 2), EMPTY], 1), Some(TreeError::Order));
-    assert_eq!(error(&[LEAF | MORE | 5, EMPTY], 1), Some(TreeError::Order));
-    assert_eq!(error(&[inner(3, 1), EMPTY], 1), Some(TreeError::Truncated));
-    assert_eq!(error(&[LEAF | MORE | 1, EMPTY | MORE], 1), Some(TreeError::Truncated));
-    assert_eq!(error(&[inner(0, 1)], 1), Some(TreeError::Childless));
-    let deep: Vec<_> = (0..13).map(|i| inner(1, i + 1)).chain([EMPTY]).collect();
+    assert_eq!(error(&[inner(1, 4), EMPTY], 1), Some(TreeError::Order));
+    assert_eq!(error(&[LEAF | MORE | 7, EMPTY], 1), Some(TreeError::Order));
+    assert_eq!(error(&[inner(3, 3), EMPTY], 1), Some(TreeError::Truncated));
+    assert_eq!(error(&[LEAF | MORE | 3, EMPTY | MORE], 1), Some(TreeError::Truncated));
+    assert_eq!(error(&[inner(0, 3)], 1), Some(TreeError::Childless));
+    let deep: Vec<_> = (0..13).map(|i| inner(1, i + 3)).chain([EMPTY]).collect();
     assert_eq!(error(&deep, 1), Some(TreeError::TooDeep));
     // three shapes have ids of two bits: the tree over two of them names the third
     let leaf = EMPTY & !(3 ^ 2);
     assert_eq!(error(&[leaf], 3), None);
     assert_eq!(error(&[leaf], 2), Some(TreeError::Id));
     assert_eq!(error(&[EMPTY, EMPTY], 1), Some(TreeError::Length));
-    assert_eq!(error(&[], 1), Some(TreeError::Length));
+    assert_eq!(tree(&[], 1), Some(TreeError::Length));
+    // a leaf is no grid, and no row; a row's second cell isn't there
+    assert_eq!(tree(&[EMPTY], 1), Some(TreeError::Grid));
+    assert_eq!(tree(&[grid, EMPTY], 1), Some(TreeError::Grid));
+    assert_eq!(tree(&[grid, inner(2, 2), EMPTY], 1), Some(TreeError::Grid));
+    assert_eq!(tree(&[grid], 1), Some(TreeError::Truncated));
+    let one = of_cell(&[EMPTY]);
     for cube in [
         Cube { origin: [0; 3], log2_side: 15 },
         Cube { origin: [0; 3], log2_side: 30 },
         Cube { origin: [0, i32::MIN, 0], log2_side: 20 },
     ] {
-        assert_eq!(Fixed::octree(&[EMPTY], 1, &cube, -16).err(), Some(TreeError::Cube));
+        assert_eq!(Fixed::octree(&one, 1, &cube, -16).err(), Some(TreeError::Cube));
     }
-    assert_eq!(f64::octree(&[EMPTY], 1, &cube, 100).err(), Some(TreeError::Cube));
+    assert_eq!(f64::octree(&one, 1, &cube, 100).err(), Some(TreeError::Cube));
     for (error, message) in [
         (TreeError::TooManyShapes, "an octree holds at most 8388607 shapes"),
         (TreeError::Cube, "the octree's cube is out of range"),
+        (TreeError::Grid, "the octree's root is not a grid"),
         (TreeError::Order, "a row or run of the octree is out of order"),
         (TreeError::Truncated, "a row or run of the octree is truncated"),
         (TreeError::Childless, "an inner node of the octree has no children"),

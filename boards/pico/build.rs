@@ -8,7 +8,11 @@ fn main() {
     let board = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     let mut map = String::new();
-    for part in [board.join("../../memory.x"), board.join("boot2.x")] {
+    let mut parts = vec![board.join("../../memory.x"), board.join("boot2.x")];
+    if env::var_os("CARGO_FEATURE_RAM").is_some() {
+        parts.push(board.join("../ram.x"));
+    }
+    for part in parts {
         map += &fs::read_to_string(&part).expect("the map is there");
         println!("cargo::rerun-if-changed={}", part.display());
     }

@@ -1,7 +1,7 @@
 //! The renderer: rows of radiance, in any order, in the caller's memory.
 
 use super::sample::Watch;
-use super::sparse::Sparse;
+use super::sparse::{Answer, Sparse};
 use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, has};
@@ -40,9 +40,7 @@ pub struct Renderer<
     /// What the sampling remembers, if it does.
     samples: &'a mut [Sample<A>],
     pub(super) remembered: Option<Remembered>,
-    /// What lies where no sample does.
-    none: Sample<A>,
-    pub(super) sparse: Sparse<A>,
+    sparse: Sparse<A>,
     /// Of adaptive sampling: whether the pixel's corners differ, from the pixel to the right (bit 0) to
     /// the one to the left (bit 2).
     pub(super) flags: u8,
@@ -107,8 +105,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             work,
             samples,
             remembered: None,
-            none: Sample::NONE,
-            sparse: Sparse::new(width, sampling.side()),
+            sparse: Sparse::new(width, height, sampling),
             flags: 0,
             tally,
         })
@@ -142,7 +139,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let row = self.view.row(rows.start, 128);
         // As if the row above had just ended: the first `next` begins a row.
         let x = columns.end;
-        Scan { renderer: self, columns, rows, x, row, begun: false }
+        let sparse = self.sparse.take();
+        Scan { renderer: self, sparse, columns, rows, x, row, begun: false }
     }
 
     /// Writes the pixels of row `y`, as many as the slice holds.
@@ -153,19 +151,79 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         }
         let row = self.view.row(y, 128);
         let width = self.settings.width;
+        // In a place of its own: the renderer itself isn't lent to what is out of line, so that the
+        // compiler knows which scene the tracer is given.
+        let mut sparse = self.sparse.take();
         for (x, pixel) in (0..width).zip(pixels) {
-            let radiance = self.shown(&row, x, y, (0, width));
+            let radiance = self.shown(&mut sparse, &row, x, y, (0, width));
             *pixel = output.pixel::<A, P>(&radiance, x, y);
         }
+        self.sparse = sparse;
     }
 
     /// The pixel at (x, y), by whatever sampling: see [`sampled`](Self::sampled).
     #[inline(always)]
-    fn shown(&mut self, row: &Row<A>, x: u16, y: u16, columns: (u16, u16)) -> Rgb<A::Radiance> {
-        if !uses::has_samplings(USES) || self.settings.sampling == Sampling::Center {
+    fn shown(
+        &mut self,
+        sparse: &mut Sparse<A>,
+        row: &Row<A>,
+        x: u16,
+        y: u16,
+        columns: (u16, u16),
+    ) -> Rgb<A::Radiance> {
+        let sampling = self.settings.sampling;
+        if !uses::has_samplings(USES) {
             self.trace(row, x, 128)
+        } else if !has(USES, uses::SPARSE) && sampling == Sampling::Center {
+            self.trace(row, x, 128)
+        } else if has(USES, uses::SPARSE)
+            && matches!(sampling, Sampling::Center | Sampling::Sparse { .. })
+        {
+            self.sparse(sparse, row, x, y, columns)
         } else {
             self.sampled(x, y, columns)
+        }
+    }
+
+    /// The pixel at (x, y) by sparse sampling, or by a ray through its centre: the tracer stands here
+    /// once for both, and for whatever ray is missing.
+    #[inline(always)]
+    fn sparse(
+        &mut self,
+        sparse: &mut Sparse<A>,
+        row: &Row<A>,
+        x: u16,
+        y: u16,
+        columns: (u16, u16),
+    ) -> Rgb<A::Radiance> {
+        let every = self.settings.sampling == Sampling::Center;
+        if !every && let Some(radiance) = sparse.goes_on(x, columns) {
+            return radiance;
+        }
+        loop {
+            let (mut other, mut at) = (*row, x);
+            let mut last = true;
+            if !every {
+                match sparse.ask(x, y, columns, self.samples) {
+                    Answer::Pixel(radiance) => return radiance,
+                    Answer::Traced => {}
+                    Answer::Sample(x, sample_y) => {
+                        at = x;
+                        last = false;
+                        if sample_y != y {
+                            other = self.view.row(sample_y, 128);
+                        }
+                    }
+                }
+            }
+            let ray = self.view.ray(&other, at, 128);
+            self.prepare(&other, at, 128);
+            let mut watch = Watch::new(&mut self.tally);
+            let radiance = self.tracer.seen(ray, self.work, &mut watch);
+            if last {
+                return radiance;
+            }
+            sparse.tell(watch.sample(radiance), self.samples);
         }
     }
 
@@ -224,19 +282,13 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
         let radiance = self.tracer.seen(ray, self.work, &mut watch);
-        Sample::new(radiance, watch.signature)
-    }
-
-    /// A remembered sample, where it lies.
-    #[inline(always)]
-    pub(super) fn at(&self, index: usize) -> &Sample<A> {
-        self.samples.get(index).unwrap_or(&self.none)
+        watch.sample(radiance)
     }
 
     /// A remembered sample.
     #[inline(always)]
     pub(super) fn remembered(&self, index: usize) -> Sample<A> {
-        *self.at(index)
+        self.samples.get(index).copied().unwrap_or(Sample::NONE)
     }
 
     /// Remembers a sample.
@@ -260,11 +312,12 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             Sampling::Adaptive { depth, threshold } if has(USES, uses::ADAPTIVE) => {
                 self.adaptive(x, y, columns, depth, threshold)
             }
-            Sampling::Sparse { threshold, .. } if has(USES, uses::SPARSE) => {
-                match self.sparse.goes_on(x, columns) {
-                    Some(radiance) => radiance,
-                    None => self.sparse(x, y, columns, threshold),
-                }
+            Sampling::Sparse { .. } if has(USES, uses::SPARSE) => {
+                let mut sparse = self.sparse.take();
+                let row = self.view.row(y, 128);
+                let radiance = self.sparse(&mut sparse, &row, x, y, columns);
+                self.sparse = sparse;
+                radiance
             }
             // The renderer isn't made for a sampling that the scene isn't tailored to.
             _ => self.trace(&self.view.row(y, 128), x, 128),
@@ -294,6 +347,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
 #[derive(Debug)]
 pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, const USES: u64> {
     renderer: &'r mut Renderer<'a, A, MAX_DEPTH, T, USES>,
+    sparse: Sparse<A>,
     columns: Range<u16>,
     /// The current row and the end.
     rows: Range<u16>,
@@ -313,6 +367,8 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         }
         self.begun = true;
         if self.rows.is_empty() || self.columns.is_empty() {
+            // Of a scan that is dropped before, the sampler forgets where it stood.
+            self.renderer.sparse = self.sparse.take();
             return false;
         }
         self.x = self.columns.start;
@@ -334,7 +390,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
         let (x, y) = (self.x, self.rows.start);
         self.x += 1;
         let columns = (self.columns.start, self.columns.end);
-        let radiance = self.renderer.shown(&self.row, x, y, columns);
+        let radiance = self.renderer.shown(&mut self.sparse, &self.row, x, y, columns);
         Some((x, y, radiance))
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Two samples differ if their colours do by more than a threshold, on 8-bit sRGB, or if the rays
 //! met different objects, or the same with other lights in shadow. Object and shadows are kept as
-//! a signature of seven bits. It is made by a tally that stands before the user's, so that the
-//! tracer knows nothing of it.
+//! a signature of six bits, and one says whether many rays followed. They are made by a tally that stands
+//! before the user's, so that the tracer knows nothing of it.
 
 use super::{Output, Rgb888};
 use crate::math::{Arithmetic, Rgb};
@@ -15,12 +15,18 @@ use crate::tally::{RayKind, Tally, Term};
 pub struct Sample<A: Arithmetic> {
     pub(super) radiance: Rgb<A::Radiance>,
     srgb: [u8; 3],
-    /// Seven bits, 0 where no ray has been sent, and the mark.
+    /// Six bits, 0 where no ray has been sent, the bit for many rays, and the mark.
     signature: u8,
 }
 
 /// The bit of the signature that is a sampler's to set.
 const MARK: u8 = 0x80;
+/// The bit that says that the pixel took many rays.
+const COSTLY: u8 = 0x40;
+/// The signature itself.
+const SIGNATURE: u8 = 0x3f;
+/// More rays than these, of all kinds, are many.
+const FEW_RAYS: u32 = 5;
 
 impl<A: Arithmetic> Sample<A> {
     /// No ray yet: what memory for samples is filled with.
@@ -30,8 +36,8 @@ impl<A: Arithmetic> Sample<A> {
     #[inline(always)]
     pub(super) fn new(radiance: Rgb<A::Radiance>, signature: u8) -> Self {
         let Rgb888(srgb) = Output::SRGB.pixel::<A, Rgb888>(&radiance, 0, 0);
-        let signature = signature & !MARK;
-        Self { radiance, srgb, signature: if signature == 0 { 1 } else { signature } }
+        let one = u8::from(signature & SIGNATURE == 0);
+        Self { radiance, srgb, signature: signature & !MARK | one }
     }
 
     /// A radiance that nothing will be compared with.
@@ -43,13 +49,56 @@ impl<A: Arithmetic> Sample<A> {
     /// Whether a ray has been sent.
     #[inline(always)]
     pub(super) fn is_known(&self) -> bool {
-        self.signature & !MARK != 0
+        self.signature & SIGNATURE != 0
     }
 
     /// Whether a sampler has marked it.
     #[inline(always)]
     pub(super) fn is_marked(&self) -> bool {
         self.signature & MARK != 0
+    }
+
+    /// What lies in the middle between two samples where no ray has been sent.
+    #[inline(always)]
+    pub(super) fn between(
+        &self,
+        other: &Self,
+        mean: impl Fn(&Rgb<A::Radiance>, &Rgb<A::Radiance>) -> Rgb<A::Radiance>,
+    ) -> Self {
+        let half = |a: u8, b: u8| (u16::from(a).wrapping_add(u16::from(b)) >> 1) as u8;
+        let ([r, g, b], [s, h, c]) = (self.srgb, other.srgb);
+        Self {
+            radiance: mean(&self.radiance, &other.radiance),
+            srgb: [half(r, s), half(g, h), half(b, c)],
+            signature: self.signature & other.signature & COSTLY,
+        }
+    }
+
+    /// Whether a ray among four samples is worth sending: their colours differ by more than the
+    /// threshold, a quarter less if their rays met different things, half as much again if all took many.
+    #[inline(never)]
+    pub(super) fn is_worth_a_ray(&self, b: &Self, c: &Self, d: &Self, threshold: u8) -> bool {
+        let four = [self, b, c, d];
+        let (mut costly, mut first, mut same) = (COSTLY, 0, true);
+        for sample in four {
+            costly &= sample.signature;
+            let signature = sample.signature & SIGNATURE;
+            same &= first == 0 || signature == 0 || signature == first;
+            first = if signature == 0 { first } else { signature };
+        }
+        let limit = if costly == 0 { threshold } else { threshold.saturating_add(threshold >> 1) };
+        let limit = if same { limit } else { limit.wrapping_sub(limit >> 2) };
+        (0..3).any(|i| {
+            let [a, b, c, d] = four.map(|sample| sample.srgb[i]);
+            let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
+            high.wrapping_sub(low) > limit
+        })
+    }
+
+    /// As if no ray had been sent.
+    #[inline(always)]
+    pub(super) fn forget(&mut self) {
+        self.signature = 0;
     }
 
     /// The same, marked.
@@ -88,7 +137,7 @@ pub(super) fn differ<A: Arithmetic, const N: usize>(
     samples: &[Sample<A>; N],
     threshold: u8,
 ) -> bool {
-    let mut signatures = samples.iter().map(|sample| sample.signature & !MARK);
+    let mut signatures = samples.iter().map(|sample| sample.signature & SIGNATURE);
     let first = signatures.next();
     signatures.any(|signature| Some(signature) != first) || differ_in_color(samples, threshold)
 }
@@ -96,26 +145,35 @@ pub(super) fn differ<A: Arithmetic, const N: usize>(
 /// Makes a signature out of what the tracer reports, and hands all of it on.
 pub(super) struct Watch<'t, T> {
     tally: &'t mut T,
-    pub(super) signature: u8,
+    signature: u8,
+    rays: u32,
 }
 
 impl<'t, T> Watch<'t, T> {
     #[inline(always)]
     pub(super) fn new(tally: &'t mut T) -> Self {
-        Self { tally, signature: 0 }
+        Self { tally, signature: 0, rays: 0 }
+    }
+
+    /// What the sampler remembers of the rays that were reported.
+    #[inline(always)]
+    pub(super) fn sample<A: Arithmetic>(&self, radiance: Rgb<A::Radiance>) -> Sample<A> {
+        let costly = if self.rays > FEW_RAYS { COSTLY } else { 0 };
+        Sample::new(radiance, self.signature & SIGNATURE | costly)
     }
 }
 
 impl<T: Tally> Tally for Watch<'_, T> {
     #[inline(always)]
     fn ray<A: Arithmetic>(&mut self, kind: RayKind, depth: u8, ray: &Ray<A>, w: &Rgb<A::Weight>) {
+        self.rays = self.rays.wrapping_add(1);
         self.tally.ray(kind, depth, ray, w);
     }
 
     #[inline(always)]
     fn hit<A: Arithmetic>(&mut self, kind: RayKind, shape: u32, distance: A::Length) {
         if kind == RayKind::Primary {
-            // An odd factor keeps shapes apart whose numbers differ by less than 128.
+            // An odd factor keeps shapes apart whose numbers differ by less than 64.
             self.signature = (shape as u8).wrapping_add(1).wrapping_mul(0x9d);
         }
         self.tally.hit::<A>(kind, shape, distance);
@@ -180,10 +238,10 @@ mod tests {
             if deeper {
                 watch.shadowed(0, 2);
             }
-            watch.signature & !MARK
+            watch.signature & SIGNATURE
         };
-        assert!((1..128).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
-        assert!((0..127).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
+        assert!((1..64).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
+        assert!((0..63).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
         assert!(signature(3, &[0, 1], false) != signature(3, &[0], false));
         assert_eq!(signature(3, &[1], true), signature(3, &[1], false));
     }

@@ -38,15 +38,16 @@ pub enum Sampling {
         /// more than half as much again.
         threshold: u8,
     },
-    /// One through the centre of every `side`-th pixel of every `side`-th row; where the four
-    /// corners of such a block, or of one beside it, differ in colour, object or shadow it is halved
-    /// both ways, down to single pixels; the others are interpolated (after Akimoto et al.,
-    /// "Pixel-selected ray tracing", 1991). Remembers `side`/2 + 2 rows of W/2 + 1 samples and one of
-    /// W/`side` + 1, W being rounded up to whole blocks.
+    /// One through the centre of every `side`-th pixel of every `side`-th row; then one in the middle of
+    /// such a block, and of its sides, where the samples around it differ, and so on in its quarters down
+    /// to single pixels; the others are interpolated (after Akimoto et al., "Pixel-selected ray tracing",
+    /// 1991). Remembers `side`/2 + 2 rows of W/2 + 1 samples and one of W/`side` + 1, W being rounded up to
+    /// whole blocks.
     Sparse {
         /// 2, 4, 8 or 16.
         side: u8,
-        /// Colours differ if one channel of 8-bit sRGB does by more than this.
+        /// Colours differ if one channel of 8-bit sRGB does by more than this; by three quarters of it
+        /// if the rays met different things, by half as much again if they cost many rays each.
         threshold: u8,
     },
 }
@@ -79,14 +80,6 @@ impl Sampling {
             Self::Grid { .. } | Self::Jittered { .. } => uses::CELLS,
             Self::Adaptive { .. } => uses::ADAPTIVE,
             Self::Sparse { .. } => uses::SPARSE,
-        }
-    }
-
-    /// The side of sparse sampling's blocks, 0 for others.
-    pub(super) const fn side(self) -> u8 {
-        match self {
-            Self::Sparse { side, .. } => side,
-            _ => 0,
         }
     }
 

@@ -67,11 +67,26 @@ pub(crate) fn power_q14(x_q14: u32, n_q8: u32) -> u32 {
     let x = if x_q14 > 16384 { 16384 } else { x_q14 };
     let log_q16 = neg_log2_q16(x);
     // 2^−15 rounds to nothing, and so does all below it: 15·2²⁴ is the largest product
-    let product = u64::from(log_q16) * u64::from(n_q8);
-    if product >= 15 << 24 || x == 0 {
-        return 0;
+    match product_below(log_q16, n_q8, 15) {
+        Some(product) if x != 0 => exp2_q14(u64::from(product >> 8)),
+        _ => 0,
     }
-    exp2_q14(product >> 8)
+}
+
+/// a·b if it is less than `limit`·2²⁴, for a below 2²⁰ and a limit below 128: in one word, once products of
+/// the high parts have shown that it fits.
+#[inline(always)]
+fn product_below(a: u32, b: u32, limit: u32) -> Option<u32> {
+    // Both parts at least 1, or b below 2¹⁰: what passes is below 2³⁰.
+    if (a >> 10).wrapping_mul(b >> 10) >= limit << 4 {
+        return None;
+    }
+    // A small a is exact, and b may have all its bits.
+    if a < 1 << 10 && a.wrapping_mul(b >> 14) >= limit << 10 {
+        return None;
+    }
+    let product = a.wrapping_mul(b);
+    if product < limit << 24 { Some(product) } else { None }
 }
 
 /// 2^−x in Q14 for x in Q16, within 1.5·10⁻⁵ and half a step; 0 from x = 15 on.
@@ -88,7 +103,20 @@ pub(crate) fn exp2_q14(exponent_q16: u64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
     extern crate std;
+
+    proptest! {
+        #[test]
+        fn products_in_a_word_are_those_of_two(a in 0u32..20, b in 0u32..32, x: u32, y: u32) {
+            // Of any size.
+            let (a, b) = (x & ((1 << a) | ((1 << a) - 1)), y & ((1 << b) | ((1 << b) - 1)));
+            let a = a & ((1 << 20) - 1);
+            let product = u64::from(a) * u64::from(b);
+            let small = (product < 15 << 24).then_some(product as u32);
+            prop_assert_eq!(product_below(a, b, 15), small);
+        }
+    }
 
     #[test]
     fn powers_against_f64() {

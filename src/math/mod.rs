@@ -133,7 +133,9 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     type DirectionCone: Copy + Debug + Send + Sync;
     /// A component of a camera's view vector, not normalised.
     type Aim: Number;
-    /// A ray parameter within the octree, in units of the tree's side.
+    /// The reciprocal of a direction's component, for walks.
+    type Pace: Copy;
+    /// A ray parameter within the octree, in units of its own.
     type Span: Number;
     /// A rotation of space.
     type Rotation: Copy + Debug + Send + Sync;
@@ -147,6 +149,9 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     const REFINE: bool;
     /// A hit at this distance or beyond is a miss.
     const FAR: Self::Length;
+    /// The largest distance below [`FAR`](Self::FAR): where planes are met that end nowhere. For
+    /// floats, for which `FAR` is as good as endless, that distance itself.
+    const HORIZON: Self::Length;
     /// The cone of all directions.
     const EVERY_DIRECTION: Self::DirectionCone;
     /// Zero length.
@@ -193,6 +198,27 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// `a/b` for `a ≥ 0`, `b ≥ 0`; at least [`FAR`](Self::FAR) where the quotient is larger than
     /// that or `b` is 0.
     fn ratio(a: Self::Length, b: Self::Unit) -> Self::Length;
+    /// The same for a plane without an end: at most [`HORIZON`](Self::HORIZON), for `b > 0`.
+    #[inline(always)]
+    fn endless_ratio(a: Self::Length, b: Self::Unit) -> Self::Length {
+        Self::ratio(a, b)
+    }
+    /// `a/b` in steps so large that planes beyond the horizon can be told apart.
+    #[inline(always)]
+    fn beyond_horizon(_a: Self::Length, _b: Self::Unit) -> Self::Length {
+        Self::NO_LENGTH
+    }
+    /// `o + a/b·d`, for patterns on a plane beyond the horizon: in fixed point to 32,768 units, where
+    /// coordinates begin again.
+    #[inline(always)]
+    fn endless_point(
+        o: &[Self::Length; 3],
+        a: Self::Length,
+        b: Self::Unit,
+        d: &[Self::Unit; 3],
+    ) -> [Self::Length; 3] {
+        Self::along(o, Self::ratio(a, b), d)
+    }
     /// The unit vector along `v`, its length, and the length's reciprocal. A null vector has no
     /// direction and gives null.
     fn normalize(v: &[Self::Length; 3]) -> ([Self::Unit; 3], Self::Length, Self::Inverse);
@@ -358,7 +384,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating, for radiances that aren't negative.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
-    /// The step that leads from `a` to `b` in 2^`log2` of them, for radiances that aren't negative.
+    /// The step that leads from `a` to `b` in 2^`log2_side` of them, for radiances that aren't negative.
     /// `log2` is at most 4. Rounded towards 0.
     fn step(a: Self::Radiance, b: Self::Radiance, log2: u32) -> Self::Radiance;
     /// `a` and `n` steps, fewer than [`step`](Self::step) was made for: it lies between the two that
@@ -406,13 +432,28 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// The unit vector along a camera's view vector.
     fn sight(v: &[Self::Aim; 3]) -> [Self::Unit; 3];
 
-    /// For one axis of an octree of side 2^`log2_side` (in [`Self::Length`]'s smallest step for
-    /// [`Fixed`], in units otherwise): the ray parameter at the far face and that of crossing
-    /// the whole side, for a ray at `o` within the cube (0 to side) going towards larger
-    /// coordinates with the speed `d ≥ 0`.
-    fn spans(o: Self::Length, d: Self::Unit, log2_side: i8) -> (Self::Span, Self::Span);
-    /// A distance in the tree's unit, rounded up so that an end is never early.
-    fn span(t: Self::Length, log2_side: i8) -> Self::Span;
+    /// What a ray of the speed `d ≥ 0` takes for a length along an axis.
+    fn pace(d: Self::Unit) -> Self::Pace;
+    /// What it takes for `a ≥ 0`; at least [`FAR`](Self::FAR) where that is larger, and too little by any
+    /// amount where the speed is below 9·2⁻¹⁷.
+    fn takes(a: Self::Length, pace: &Self::Pace) -> Self::Length;
+    /// For one axis of an octree's grid: what it takes for `left` and for a cell's side, no less than
+    /// `left` but for what a position may be wrong. In fixed point the side is below 2¹⁴·2^`unit` steps.
+    fn spans(
+        left: Self::Length,
+        cell: Self::Length,
+        pace: &Self::Pace,
+        unit: u8,
+    ) -> (Self::Span, Self::Span);
+    /// How many whole cells of an octree's grid lie before `o`: exactly in fixed point, and 0 where it is
+    /// negative. `per` is what the arithmetic's constructors make of a cell's side.
+    fn cells_before(o: Self::Length, per: Self::Span, unit: u8) -> u32;
+    /// The length of `n` cells, for up to 8.
+    fn cells_long(cell: Self::Length, n: u32) -> Self::Length;
+    /// A distance as a span, rounded up so that an end is never early.
+    fn span(t: Self::Length, unit: u8) -> Self::Span;
+    /// A span `n` times, for up to 7.
+    fn spans_of(s: Self::Span, n: u32) -> Self::Span;
     /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
     fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
     /// `Rᵀ·v`, the way back.
@@ -428,7 +469,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
 
     /// A span over 2^`times`, for 0 to 31.
     fn halved(s: Self::Span, times: u32) -> Self::Span;
-    /// The side of a tree, 2^`log2_side`.
+    /// 2^`log2_side` of [`Fixed`]'s smallest steps, or of units otherwise.
     fn side(log2_side: i8) -> Self::Length;
 }
 

@@ -69,7 +69,23 @@ pub(crate) fn normalize(x: u32) -> (u32, u32) {
     }
 }
 
-/// The same with an even shift: the result is in 2³⁰ to 2³².
+/// The same for x no less than 2¹⁶.
+#[inline(always)]
+pub(crate) fn normalize_large(x: u32) -> (u32, u32) {
+    #[cfg(not(narrow_multiply))]
+    {
+        normalize(x)
+    }
+    #[cfg(narrow_multiply)]
+    {
+        let b = ((x >> 24 == 0) as u32) << 3;
+        let x = x << b;
+        let k = entry(&LEADING_ZEROS, x) & 7;
+        (x << k, b + k)
+    }
+}
+
+/// The same as [`normalize`] with an even shift: the result is in 2³⁰ to 2³².
 #[inline(always)]
 pub(crate) fn normalize_even(x: u32) -> (u32, u32) {
     #[cfg(not(narrow_multiply))]

@@ -1,5 +1,6 @@
-//! The octree: a cube cut in eight, again and again (Glassner 1984; the walk after Revelles,
-//! Ureña and Lastra 2000 and Laine and Karras 2010).
+//! The octree: a grid of cells, each cut in eight, again and again (Glassner 1984; the walk after
+//! Amanatides and Woo 1987, and within a cell after Revelles, Ureña and Lastra 2000 and Laine and Karras
+//! 2010).
 
 mod buffer;
 mod builder;

@@ -1,9 +1,13 @@
-//! The tree's words. One array of `u32` holds everything; the root is word 0, and a tree without
-//! shapes has no words at all.
+//! The tree's words. One array of `u32` holds everything; a tree without shapes has no words at all.
+//!
+//! The root is a grid of up to 8×8×8 cells: word 0 says how many and how large ([`Grid`]), and a word
+//! for each row along x follows, those of one z together. A row is like an inner node, but its children lie
+//! beside each other in x, and it may have none. Each cell of the grid is a leaf or an inner node, whose
+//! children are its octants.
 //!
 //! | word | bit 31 | bit 30 | below |
 //! |---|---|---|---|
-//! | inner node | 0 | 30 to 23: which of the eight children exist | 22 to 0: index of the first one's word |
+//! | row, inner node | 0 | 30 to 23: which of the eight children exist | 22 to 0: index of the first one's word |
 //! | leaf, its ids inline | 1 | 0 | 29 to 0: ids |
 //! | leaf, its ids elsewhere | 1 | 1 | 29 to 0: index of the run's first word |
 //! | word of a run | 1 | another word of the run follows | 29 to 0: ids |
@@ -15,14 +19,16 @@
 //! used is all ones, which is never an id: so ids can be shifted out arithmetically, ones follow,
 //! and the first id of all ones is the end, without counting.
 //!
-//! **Order**: rows and runs stand without gaps in the order of a depth-first visit, children
+//! **Order**: children and runs stand without gaps in the order of a depth-first visit, children
 //! ascending. So nothing is shared, a child comes after its parent, and one pass can
 //! [`validate`] words of any origin.
 
 use core::fmt;
 
-/// A leaf is at most this many levels below the root.
+/// A leaf is at most this many levels below a cell of the grid.
 pub const MAX_LEVELS: usize = 12;
+/// The grid has no more cells along an axis: a bit for each in a row's word.
+pub(super) const MAX_CELLS: usize = 8;
 /// Ids of this many bits at most: the builder keeps a byte beside an id.
 pub const MAX_ID_BITS: u32 = 23;
 
@@ -34,7 +40,7 @@ const IDS: u32 = MORE - 1;
 /// Room for all levels, a power of two: a masked index needs no check.
 pub(super) const ROOM: usize = 16;
 
-const _: () = assert!(MAX_LEVELS < ROOM);
+const _: () = assert!(MAX_LEVELS + 2 <= ROOM);
 const _: () = assert!(INDEX_BITS + 8 == 31);
 const _: () = assert!(MAX_ID_BITS <= 24);
 
@@ -88,6 +94,69 @@ pub(super) fn child(inner: u32, number: u32) -> Option<usize> {
         return None;
     }
     Some(first(inner) + population(children & (bit - 1)) as usize)
+}
+
+/// The root: so many cells along each axis, all cubes of one side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Grid {
+    pub(super) cells: [u8; 3],
+    /// A cell's side is `mantissa << shift` steps, the mantissa's highest bit set.
+    pub(super) mantissa: u8,
+    pub(super) shift: u8,
+}
+
+/// A cell's side has at least so many trailing zeros: it can be halved as often.
+pub(super) const LEAST_SHIFT: u8 = 6;
+pub(super) const MOST_SHIFT: u8 = 22;
+
+impl Grid {
+    /// So many cells of the side, which is rounded up.
+    pub(super) const fn new(cells: [u8; 3], side: i32) -> Self {
+        let mut shift = LEAST_SHIFT;
+        while shift < MOST_SHIFT && ((side - 1) >> shift) + 1 > 0xff {
+            shift += 1;
+        }
+        let mut mantissa = ((side - 1) >> shift) + 1;
+        mantissa = if mantissa < 0x80 { 0x80 } else { mantissa };
+        Self { cells, mantissa: if mantissa > 0xff { 0xff } else { mantissa as u8 }, shift }
+    }
+
+    /// A cell's side, in steps.
+    pub(super) const fn side(&self) -> i32 {
+        (self.mantissa as i32) << self.shift
+    }
+
+    /// The word of this grid.
+    pub(super) const fn word(&self) -> u32 {
+        let [x, y, z] = self.cells;
+        (x as u32 - 1)
+            | (y as u32 - 1) << 3
+            | (z as u32 - 1) << 6
+            | (self.mantissa as u32) << 9
+            | (self.shift as u32) << 17
+    }
+
+    /// The grid of a word, if it is one.
+    pub(super) const fn read(word: u32) -> Option<Self> {
+        let cells = [1 + (word & 7) as u8, 1 + (word >> 3 & 7) as u8, 1 + (word >> 6 & 7) as u8];
+        let (mantissa, shift) = ((word >> 9) as u8, (word >> 17 & 31) as u8);
+        if word >> 22 != 0 || mantissa < 0x80 || shift < LEAST_SHIFT || shift > MOST_SHIFT {
+            return None;
+        }
+        Some(Self { cells, mantissa, shift })
+    }
+
+    /// How many rows there are.
+    pub(super) const fn rows(&self) -> usize {
+        self.cells[1] as usize * self.cells[2] as usize
+    }
+
+    /// How often a cube would have to be halved for such cells.
+    pub(super) const fn levels(&self) -> u8 {
+        let [x, y, z] = self.cells;
+        let most = (x - 1) | (y - 1) | (z - 1);
+        8 - most.leading_zeros() as u8
+    }
 }
 
 /// A leaf whose ids are in a run.
@@ -191,9 +260,11 @@ pub enum TreeError {
     TooManyShapes,
     /// The cube is too small, too large or too far away.
     Cube,
-    /// A row of children or a run of ids isn't where the order wants it.
+    /// The root is no grid, or has a row that is none.
+    Grid,
+    /// Children or a run of ids aren't where the order wants them.
     Order,
-    /// A row of children or a run of ids doesn't end within the words.
+    /// Rows, children or a run of ids don't end within the words.
     Truncated,
     /// An inner node has no children.
     Childless,
@@ -211,6 +282,7 @@ impl TreeError {
         match self {
             Self::TooManyShapes => "an octree holds at most 8388607 shapes",
             Self::Cube => "the octree's cube is out of range",
+            Self::Grid => "the octree's root is not a grid",
             Self::Order => "a row or run of the octree is out of order",
             Self::Truncated => "a row or run of the octree is truncated",
             Self::Childless => "an inner node of the octree has no children",
@@ -239,8 +311,8 @@ const fn check_ids(width: IdWidth, word: u32, shapes: usize) -> bool {
     ids.is_over()
 }
 
-/// Checks the words of a tree over so many shapes, and gives the number of its levels (0 for a
-/// root that is a leaf). One pass: each word is looked at once.
+/// Checks the words of a tree over so many shapes, and gives the number of its levels, those that the
+/// grid stands for among them. One pass: each word is looked at once.
 ///
 /// # Errors
 /// Whatever could make a walk wrong or endless.
@@ -249,12 +321,16 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
     if words.is_empty() {
         return if shapes == 0 { Ok(0) } else { Err(TreeError::Length) };
     }
-    // For each level the next word of the row, and its end.
+    let Some(grid) = Grid::read(word(words, 0)) else { return Err(TreeError::Grid) };
+    if words.len() <= grid.rows() {
+        return Err(TreeError::Truncated);
+    }
+    // For each level the next word of the row, and its end; the grid's rows are level 0, its cells 1.
     let mut next = [0; ROOM];
     let mut end = [0; ROOM];
-    let (mut level, mut deepest) = (0, 0);
-    end[0] = 1;
-    let mut used = 1;
+    let (mut level, mut deepest) = (0, 1);
+    let mut used = 1 + grid.rows();
+    (next[0], end[0]) = (1, used);
     loop {
         let current = level % ROOM;
         if next[current] == end[current] {
@@ -266,12 +342,15 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
         }
         let word = self::word(words, next[current]);
         next[current] += 1;
+        if level == 0 && (is_leaf(word) || children(word) >> grid.cells[0] != 0) {
+            return Err(TreeError::Grid);
+        }
         if !is_leaf(word) {
             let (start, length) = (first(word), population(children(word)) as usize);
-            if length == 0 {
+            if length == 0 && level > 0 {
                 return Err(TreeError::Childless);
             }
-            if level == MAX_LEVELS {
+            if level > MAX_LEVELS {
                 return Err(TreeError::TooDeep);
             }
             if start != used {
@@ -307,5 +386,9 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
             return Err(TreeError::Id);
         }
     }
-    if used == words.len() { Ok(deepest as u8) } else { Err(TreeError::Length) }
+    if used == words.len() {
+        Ok(grid.levels() + (deepest - 1) as u8)
+    } else {
+        Err(TreeError::Length)
+    }
 }

@@ -26,11 +26,16 @@ const LOWER: [u8; 3] = [0x55, 0x33, 0x0f];
 impl Cell {
     /// The octants that the extent meets, a bit each.
     pub(super) const fn octants(&self, extent: &Extent) -> u8 {
+        self.octants_of(extent, 0xff)
+    }
+
+    /// Those of the octants `of`, a bit each, that the extent meets.
+    pub(super) const fn octants_of(&self, extent: &Extent, of: u8) -> u8 {
         match extent {
-            Extent::Box { min, max } => self.by_box(min, max),
-            Extent::Sphere { center, radius } => self.by_sphere(center, *radius),
-            Extent::Round { .. } => self.by_round(extent),
-            Extent::Triangle { corners } => self.by_triangle(corners),
+            Extent::Box { min, max } => self.by_box(min, max) & of,
+            Extent::Sphere { center, radius } => self.by_sphere(center, *radius, of),
+            Extent::Round { .. } => self.by_round(extent, of),
+            Extent::Triangle { corners } => self.by_triangle(corners, of),
         }
     }
 
@@ -57,9 +62,9 @@ impl Cell {
         octants
     }
 
-    const fn by_sphere(&self, center: &[i32; 3], radius: i32) -> u8 {
+    const fn by_sphere(&self, center: &[i32; 3], radius: i32, of: u8) -> u8 {
         let (min, max) = bounds(&Extent::Sphere { center: *center, radius });
-        let mut octants = self.by_box(&min, &max);
+        let mut octants = self.by_box(&min, &max) & of;
         if octants == 0 {
             return 0;
         }
@@ -98,9 +103,9 @@ impl Cell {
         octants
     }
 
-    const fn by_triangle(&self, corners: &[[i32; 3]; 3]) -> u8 {
+    const fn by_triangle(&self, corners: &[[i32; 3]; 3], of: u8) -> u8 {
         let (min, max) = bounds(&Extent::Triangle { corners: *corners });
-        let mut octants = self.by_box(&min, &max);
+        let mut octants = self.by_box(&min, &max) & of;
         let mut i = 0;
         while i < 8 {
             if octants >> i & 1 != 0 && !self.octant_meets(i, corners) {

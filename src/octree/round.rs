@@ -91,10 +91,13 @@ struct Round<'e> {
 
 impl Cell {
     /// The octants that the wall, or what it encloses, may meet.
-    pub(super) const fn by_round(&self, extent: &Extent) -> u8 {
+    pub(super) const fn by_round(&self, extent: &Extent, of: u8) -> u8 {
         let Extent::Round { ends, radii, hollow } = extent else { return 0 };
         let (min, max) = bounds_of(extent);
-        let mut octants = self.by_box(&min, &max);
+        let mut octants = self.by_box(&min, &max) & of;
+        if octants == 0 {
+            return 0;
+        }
         let axis = direction(&minus(&ends[1], &ends[0]));
         let round = Round { ends, radii, axis };
         let mut i = 0;

@@ -1,25 +1,29 @@
 //! Walking the tree along a ray.
 //!
-//! The ray is mirrored so that it goes towards larger coordinates on every axis; children are
-//! then numbered along it, and one xor gives their true numbers. For each axis the walk knows
-//! the ray parameter at which the current cell's far face is passed (its exits) and that of
-//! crossing half the cell; a child's exits are the cell's in the upper half, and less by the
-//! half in the lower one. Going down halves; going on looks for the smallest exit, and crosses
-//! that axis alone: the next child's exit there is the cell's. Where the child lies in the upper
-//! half already, the cell itself is left across the same face, and its parent goes on with the
+//! For each axis the walk knows the ray parameter at which the current cell's far face is passed (its
+//! exits) and that of crossing a whole cell of the grid. The smallest exit says which face the ray leaves
+//! the cell through; the next cell's exit on that axis is later by a cell, the others stay (Amanatides and
+//! Woo, "A fast voxel traversal algorithm for ray tracing", 1987).
+//!
+//! Below a cell of the grid the ray is mirrored so that it goes towards larger coordinates on every
+//! axis; children are then numbered along it, and one xor gives their true numbers. A child's exits are
+//! the cell's in the upper half, and less by half a cell in the lower one. Going down halves; going on
+//! crosses one axis alone: the next child's exit there is the cell's. Where the child lies in the upper
+//! half already, the cell itself is left across the same face, and what is around it goes on with the
 //! same axis. There is no multiplication after the set-up.
 //!
-//! A ray that starts outside is first moved to where it enters the cube, less what that place
-//! may be wrong, so its start may lie a little before the cube: nothing here minds.
+//! A ray that starts outside is first moved to where it enters the grid, less what that place
+//! may be wrong, so its start may lie a little before the grid: nothing here minds. Nor does it
+//! mind a cell too many: a shape that lies elsewhere is tested in vain.
 //!
 //! **The end.** The next cell is entered where the last one is left; if that is beyond the best
-//! hit (not at it: a tie may be there), nothing nearer can follow. Where the walk's idea of the
-//! parameter is wrong, it is the position along the ray that is wrong by less than the builder's
-//! margin, so the shape was listed in a cell already seen.
+//! hit (spans of distances are rounded up: a tie isn't beyond), nothing nearer can follow. Where the
+//! walk's idea of the parameter is wrong, it is the position along the ray that is wrong by less than
+//! the builder's margin, so the shape was listed in a cell already seen.
 
 use super::OctreeBuffer;
 use super::builder::{Cube, LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
-use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
+use super::node::{self, Grid, IdWidth, MAX_LEVELS, TreeError, validate};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 
 /// What a walk finds is its visitor's business.
@@ -29,10 +33,10 @@ pub trait Visitor<A: Arithmetic> {
     /// Tests a shape, and says whether the walk may stop. A shape may come more than once, and
     /// in any order; of several at the same distance all come.
     fn visit(&mut self, id: u32) -> bool;
-    /// An inner node is entered.
+    /// An inner node is entered, or the grid.
     #[inline(always)]
     fn node(&mut self) {}
-    /// A child is looked at, whether it exists or not.
+    /// A cell or a child is looked at, whether it exists or not.
     #[inline(always)]
     fn step(&mut self) {}
 }
@@ -42,9 +46,15 @@ pub trait Visitor<A: Arithmetic> {
 pub struct Octree<'a, A: Arithmetic> {
     words: &'a [u32],
     origin: [A::Length; 3],
+    /// The sides of the grid and of a cell.
+    sides: [A::Length; 3],
+    cell: A::Length,
+    per_cell: A::Span,
+    cells: [u8; 3],
+    /// See [`Arithmetic::spans`].
+    unit: u8,
     width: IdWidth,
     shapes: u32,
-    log2_side: i8,
 }
 
 /// So many ids are remembered, by their low bits: it saves a sixth of the tests, and clearing
@@ -64,7 +74,7 @@ struct Frame<A: Arithmetic> {
 /// A walk's memory. It needn't be cleared between walks.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkStack<A: Arithmetic> {
-    /// The first one stands for what is around the root: its word and number stay 0.
+    /// The first one stands for a cell of the grid: its word and number stay 0.
     frames: [Frame<A>; MAX_LEVELS + 1],
 }
 
@@ -81,8 +91,18 @@ impl<A: Arithmetic> Default for WalkStack<A> {
     }
 }
 
+/// What a walk below the grid needs to know of the ray.
+struct Way<A: Arithmetic> {
+    whole: [A::Span; 3],
+    /// What the spans' beginning is from the ray's origin.
+    back: A::Length,
+    mirror: u32,
+    entry: A::Span,
+    bound: A::Span,
+}
+
 /// Whether positions in the cube, and differences of them, fit.
-const fn cube_fits(cube: &Cube, log2_step: i8) -> bool {
+const fn cube_fits(cube: &Cube, log2_step: i8, grid: &Grid) -> bool {
     let log2 = cube.log2_side as i32 + log2_step as i32;
     if cube.log2_side < LEAST_LOG2_SIDE
         || cube.log2_side > MOST_LOG2_SIDE
@@ -94,6 +114,9 @@ const fn cube_fits(cube: &Cube, log2_step: i8) -> bool {
     let mut axis = 0;
     while axis < 3 {
         if cube.origin[axis] < -(1 << 29) || cube.origin[axis] > 1 << 29 {
+            return false;
+        }
+        if grid.cells[axis] as i64 * grid.side() as i64 > 1 << cube.log2_side {
             return false;
         }
         axis += 1;
@@ -114,14 +137,19 @@ for_each_arithmetic! {
             cube: &Cube,
             log2_step: i8,
         ) -> Result<Self, TreeError> {
-            if !cube_fits(cube, log2_step) {
-                return Err(TreeError::Cube);
-            }
             if let Err(error) = validate(words, shapes) {
                 return Err(error);
             }
+            let grid = match words.split_first() {
+                Some((&word, _)) => Grid::read(word),
+                None => Some(Grid::new([1; 3], 1)),
+            };
+            let Some(grid) = grid else { return Err(TreeError::Grid) };
+            if !cube_fits(cube, log2_step, &grid) {
+                return Err(TreeError::Cube);
+            }
             let Some(width) = IdWidth::of(shapes) else { return Err(TreeError::TooManyShapes) };
-            let o = cube.origin;
+            let (o, n, side) = (cube.origin, grid.cells, grid.side());
             Ok(Self {
                 words,
                 origin: [
@@ -129,9 +157,17 @@ for_each_arithmetic! {
                     make::from_grid(o[1], log2_step),
                     make::from_grid(o[2], log2_step),
                 ],
+                sides: [
+                    make::from_grid(side * n[0] as i32, log2_step),
+                    make::from_grid(side * n[1] as i32, log2_step),
+                    make::from_grid(side * n[2] as i32, log2_step),
+                ],
+                cell: make::from_grid(side, log2_step),
+                per_cell: make::per_cell(grid.mantissa, grid.shift, log2_step),
+                cells: n,
+                unit: grid.shift - node::LEAST_SHIFT,
                 width,
                 shapes: shapes as u32,
-                log2_side: make::log2_side(cube.log2_side, log2_step),
             })
         }
 
@@ -167,20 +203,21 @@ impl<A: Arithmetic> Octree<'_, A> {
         stack: &mut WalkStack<A>,
         visitor: &mut V,
     ) {
-        let Some(&(mut word)) = self.words.first() else { return };
-        let side = A::side(self.log2_side);
         let mut o = sub(origin, &self.origin);
         let mut d = *direction;
         let mut mirror = 0;
-        let mut start = A::NO_LENGTH;
         for axis in 0..3 {
             if d[axis] < A::NO_UNIT {
                 d[axis] = -d[axis];
-                o[axis] = side - o[axis];
+                o[axis] = self.sides[axis] - o[axis];
                 mirror |= 1 << axis;
             }
+        }
+        let pace = [A::pace(d[0]), A::pace(d[1]), A::pace(d[2])];
+        let mut start = A::NO_LENGTH;
+        for axis in 0..3 {
             if o[axis] < A::NO_LENGTH {
-                let entry = A::ratio(-o[axis], d[axis]);
+                let entry = A::takes(-o[axis], &pace[axis]);
                 if entry > start {
                     start = entry;
                 }
@@ -196,35 +233,103 @@ impl<A: Arithmetic> Octree<'_, A> {
             start = start - slack;
             o = A::along(&o, start, &d);
         }
-        if o[0] > side || o[1] > side || o[2] > side {
-            return;
-        }
-        let spans = [
-            A::spans(o[0], d[0], self.log2_side),
-            A::spans(o[1], d[1], self.log2_side),
-            A::spans(o[2], d[2], self.log2_side),
-        ];
-        let zero = A::NO_SPAN;
         // Where the hits are, distances are as wrong as the place where the ray enters.
         let back = start - slack;
-        let bound_of = |limit: A::Length| A::span(limit - back, self.log2_side);
-        let mut bound = bound_of(visitor.limit());
-        if zero > bound {
+        let mut bound = A::span(visitor.limit() - back, self.unit);
+        if A::NO_SPAN > bound {
             return;
         }
+        // For each axis the cell that the ray starts in, its exit, and where the ray leaves the grid.
+        let (mut exits, mut whole, mut cell) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
+        for axis in 0..3 {
+            let last = u32::from(self.cells[axis]) - 1;
+            let before = A::cells_before(o[axis], self.per_cell, self.unit);
+            let Some(more) = last.checked_sub(before) else { return };
+            let left = A::cells_long(self.cell, before + 1) - o[axis];
+            (exits[axis], whole[axis]) = A::spans(left, self.cell, &pace[axis], self.unit);
+            let end = exits[axis] + A::spans_of(whole[axis], more);
+            if end < bound {
+                bound = end;
+            }
+            cell[axis] = if mirror >> axis & 1 != 0 { more } else { before };
+        }
+        let rows = u32::from(self.cells[1]);
+        let step =
+            |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
+        let (step_x, step_y, step_z) = (step(0, 1), step(1, 1), step(2, rows));
+        let mut row = cell[2].wrapping_mul(rows).wrapping_add(cell[1]).wrapping_add(1);
+        let mut x = cell[0];
+        let [mut exit_x, mut exit_y, mut exit_z] = exits;
         let mut recent = [u32::MAX; RECENT];
-        if node::is_leaf(word) {
-            self.visit_leaf(word, &mut recent, visitor);
-            return;
+        let mut entry = A::NO_SPAN;
+        visitor.node();
+        let Some(&(mut word)) = self.words.get(row as usize) else { return };
+        loop {
+            visitor.step();
+            if let Some(index) = node::child(word, x) {
+                let Some(&below) = self.words.get(index) else { return };
+                if node::is_leaf(below) {
+                    if self.visit_leaf(below, &mut recent, visitor) {
+                        return;
+                    }
+                    let limit = A::span(visitor.limit() - back, self.unit);
+                    bound = if limit < bound { limit } else { bound };
+                } else {
+                    let [grid, ..] = &mut stack.frames;
+                    grid.ends = [exit_x, exit_y, exit_z];
+                    let way = Way { whole, back, mirror, entry, bound };
+                    match self.walk_below(below, way, &mut recent, stack, visitor) {
+                        Some(nearer) => bound = nearer,
+                        None => return,
+                    }
+                }
+            }
+            // On through the nearest face.
+            if exit_x < exit_y && exit_x < exit_z {
+                entry = exit_x;
+                if entry >= bound {
+                    return;
+                }
+                exit_x = exit_x + whole[0];
+                x = x.wrapping_add(step_x);
+                continue;
+            }
+            if exit_y < exit_z {
+                entry = exit_y;
+                if entry >= bound {
+                    return;
+                }
+                exit_y = exit_y + whole[1];
+                row = row.wrapping_add(step_y);
+            } else {
+                entry = exit_z;
+                if entry >= bound {
+                    return;
+                }
+                exit_z = exit_z + whole[2];
+                row = row.wrapping_add(step_z);
+            }
+            let Some(&next) = self.words.get(row as usize) else { return };
+            word = next;
         }
-        let whole = [spans[0].1, spans[1].1, spans[2].1];
-        let [around, ..] = &mut stack.frames;
-        around.ends = [spans[0].0, spans[1].0, spans[2].0];
-        let (mut level, mut entry) = (0, zero);
+    }
+
+    /// The walk below a cell of the grid, whose exits are in the first frame. Gives the new bound, or
+    /// nothing where the visitor wants to stop.
+    #[inline(always)]
+    fn walk_below<V: Visitor<A>>(
+        &self,
+        mut word: u32,
+        Way { whole, back, mirror, mut entry, mut bound }: Way<A>,
+        recent: &mut [u32; RECENT],
+        stack: &mut WalkStack<A>,
+        visitor: &mut V,
+    ) -> Option<A::Span> {
+        let mut level = 0;
         loop {
             // The node of this word is entered.
             visitor.node();
-            let Some([above, frame, ..]) = stack.frames.get_mut(level..) else { return };
+            let [above, frame, ..] = stack.frames.get_mut(level..)? else { return None };
             level += 1;
             let mut number = 0;
             for axis in 0..3 {
@@ -237,20 +342,20 @@ impl<A: Arithmetic> Octree<'_, A> {
             loop {
                 visitor.step();
                 if let Some(index) = node::child(word, number ^ mirror) {
-                    let Some(&below) = self.words.get(index) else { return };
+                    let &below = self.words.get(index)?;
                     if !node::is_leaf(below) {
-                        let Some(frame) = stack.frames.get_mut(level) else { return };
-                        frame.number = number;
+                        stack.frames.get_mut(level)?.number = number;
                         word = below;
                         break;
                     }
-                    if self.visit_leaf(below, &mut recent, visitor) {
-                        return;
+                    if self.visit_leaf(below, recent, visitor) {
+                        return None;
                     }
-                    bound = bound_of(visitor.limit());
+                    let limit = A::span(visitor.limit() - back, self.unit);
+                    bound = if limit < bound { limit } else { bound };
                 }
                 // On to the next child, of this node or of one above.
-                let Some(frame) = stack.frames.get(level) else { return };
+                let frame = stack.frames.get(level)?;
                 let mut axis = 0;
                 entry = frame.ends[0];
                 if frame.ends[1] < entry {
@@ -259,18 +364,18 @@ impl<A: Arithmetic> Octree<'_, A> {
                 if frame.ends[2] < entry {
                     (entry, axis) = (frame.ends[2], 2);
                 }
-                if entry > bound {
-                    return;
+                if entry >= bound {
+                    return None;
                 }
                 while number & 1 << axis != 0 {
                     level -= 1;
-                    let Some(frame) = stack.frames.get(level) else { return };
+                    let frame = stack.frames.get(level)?;
                     (word, number) = (frame.word, frame.number);
                 }
                 number |= 1 << axis;
-                // There is no node around the root.
-                let Some(level_above) = level.checked_sub(1) else { return };
-                let Some([above, frame, ..]) = stack.frames.get_mut(level_above..) else { return };
+                // The cell of the grid is left, across the same face as its child.
+                let Some(level_above) = level.checked_sub(1) else { return Some(bound) };
+                let [above, frame, ..] = stack.frames.get_mut(level_above..)? else { return None };
                 frame.ends[axis] = above.ends[axis];
             }
         }

@@ -3,15 +3,20 @@
 //! n·p = offset. With h the height of the ray's origin over the plane and c = d·n, the ray meets
 //! it at −h/c, if h and c have opposite signs. A plane across an axis needs no products: the
 //! height is a difference of two numbers and the cosine a component of the direction.
+//!
+//! **The horizon.** A plane has no end, but positions have. A ray that nears a plane meets it, however
+//! far away: beyond the arithmetic's range at [`HORIZON`](Arithmetic::HORIZON), behind every bounded
+//! shape, at a point that is put back on the plane. Patterns alone are asked for where it would be. Shadow
+//! rays ask for no distance but on which side of the plane the light is.
 
 use bytemuck::AnyBitPattern;
 
 use super::chord::{Chord, Convex, signed_ratio};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
-use super::{meets_plane, ok_or_panic, some_or, turned};
+use super::{ok_or_panic, some_or, turned};
 use crate::blob::stored;
 use crate::math::{Arithmetic, axis_of, for_each_arithmetic, unit_f64};
-use crate::scene::uses;
+use crate::scene::uses::{self, has};
 
 /// An infinite plane. It lies outside the octree; its front is where the normal points.
 #[derive(Clone, Copy, Debug, AnyBitPattern)]
@@ -99,21 +104,99 @@ impl<A: Arithmetic> Plane<A> {
         }
     }
 
-    /// See [`Shape::nearest`].
+    /// How far away the plane is from where the ray starts, and how fast the ray nears it; the ray meets
+    /// it if both are positive.
     #[inline(always)]
-    pub(crate) fn meet<const USES: u64>(
-        &self,
-        ray: &Ray<A>,
-        limit: A::Length,
-    ) -> Option<Meeting<A>> {
+    fn ahead<const USES: u64>(&self, ray: &Ray<A>) -> (A::Length, A::Unit) {
         let axis = self.axis::<USES>();
         let (height, slope) = if axis < 3 {
             (axis_of(&ray.origin, axis), axis_of(&ray.direction, axis))
         } else {
             (A::project(&ray.origin, &self.normal), A::dot(&ray.direction, &self.normal))
         };
-        let (distance, _) = meets_plane::<A>(height - self.offset, -slope, limit)?;
-        Some(Meeting { distance, detail: A::NO_LENGTH })
+        let left = height - self.offset;
+        if left > A::NO_LENGTH { (left, -slope) } else { (-left, slope) }
+    }
+
+    /// See [`Shape::nearest`]. At the horizon the detail tells planes apart: the less, the nearer.
+    #[inline(always)]
+    pub(crate) fn meet<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        let (left, slope) = self.ahead::<USES>(ray);
+        if slope <= A::NO_UNIT {
+            return None;
+        }
+        let distance = A::endless_ratio(left, slope);
+        if distance <= A::NO_LENGTH || distance > limit {
+            return None;
+        }
+        let mut detail = A::NO_LENGTH;
+        if A::REFINE && distance >= A::HORIZON {
+            // A light may be farther away than that, and yet on this side.
+            if limit > A::FAR && left >= A::scale(limit, slope) {
+                return None;
+            }
+            if has(USES, uses::SEVERAL_PLANES) {
+                detail = A::beyond_horizon(left, slope);
+            }
+        }
+        Some(Meeting { distance, detail })
+    }
+
+    /// Whether it lies across the ray nearer than `limit`, or anywhere where that is
+    /// [`FAR`](Arithmetic::FAR).
+    #[inline(always)]
+    pub(crate) fn blocks<const USES: u64>(&self, ray: &Ray<A>, limit: A::Length) -> bool {
+        let (left, slope) = self.ahead::<USES>(ray);
+        if left <= A::NO_LENGTH || slope <= A::NO_UNIT {
+            return false;
+        }
+        left < A::scale(limit, slope) || has(USES, uses::DIRECTIONAL_LIGHTS) && limit == A::FAR
+    }
+
+    /// Puts a point back on it where a ray met it `t` away; and the place on it where patterns lie, which is
+    /// the same but beyond the horizon. Floats leave points alone.
+    #[inline(always)]
+    pub(crate) fn settle<const USES: u64>(
+        &self,
+        ray: &Ray<A>,
+        t: A::Length,
+        p: &mut [A::Length; 3],
+    ) -> [A::Length; 3] {
+        if !A::REFINE {
+            return *p;
+        }
+        let axis = self.axis::<USES>();
+        for i in 0..3 {
+            if i == usize::from(axis) {
+                p[i] = self.offset;
+            }
+        }
+        if t < A::HORIZON { *p } else { self.settle_far(ray, p) }
+    }
+
+    /// The same beyond the horizon. The point keeps within positions' range.
+    #[inline(never)]
+    fn settle_far(&self, ray: &Ray<A>, p: &mut [A::Length; 3]) -> [A::Length; 3] {
+        for x in p.iter_mut() {
+            *x = if *x > A::FAR { A::FAR } else { *x };
+            *x = if *x < -A::FAR { -A::FAR } else { *x };
+        }
+        if self.axis >= 3 {
+            let height = A::project(p, &self.normal) - self.offset;
+            *p = A::along(p, -height, &self.normal);
+        }
+        let (left, slope) = self.ahead::<{ uses::ALL }>(ray);
+        let mut local = A::endless_point(&ray.origin, left, slope, &ray.direction);
+        for i in 0..3 {
+            if i == usize::from(self.axis) {
+                local[i] = self.offset;
+            }
+        }
+        local
     }
 
     /// See [`Shape::surface`].
@@ -225,18 +308,63 @@ mod tests {
         assert!((at(&slope, [0.0; 3], [0.6, 0.8, 0.0]).unwrap() - 1.0).abs() < 1e-12);
     }
 
+    /// From one up and two right of the origin, in steps of 2⁻¹⁷.
+    fn far_ray(direction: [i32; 3]) -> Ray<Fixed> {
+        let origin = [2.0, 1.0, 0.0].map(fixed::types::I16F16::from_num::<f64>);
+        let direction = direction.map(fixed::FixedI32::from_bits);
+        Ray { origin, direction, leaving: Leaving::NOTHING }
+    }
+
     #[test]
-    fn the_horizon_is_a_miss() {
-        let floor = Plane::<Fixed>::new([0.0, 1.0, 0.0], 0.0, 0);
-        let unit = |x: f64| fixed::FixedI32::from_num(x);
-        let num = |x: f64| fixed::types::I16F16::from_num(x);
-        let ray = Ray::<Fixed> {
-            origin: [num(0.0), num(2.0), num(0.0)],
-            direction: [unit(0.0), unit(-0.00001), unit(1.0)],
-            leaving: Leaving::NOTHING,
+    fn it_ends_where_the_ray_is_level() {
+        const ONE: i32 = 1 << 17;
+        // The second falls by a thousandth, 131 steps.
+        let floor = Plane::<Fixed>::new([0.0, 1.0, 0.0], -1.0, 0);
+        let slope = Plane::<Fixed>::new([0.0, 1.0, -0.001], -1.0, 0);
+        for (plane, level) in [(&floor, 0), (&slope, 131)] {
+            let meet = |up| plane.meet::<{ uses::ALL }>(&far_ray([0, up, ONE]), Fixed::FAR);
+            assert!([1, 2, 100].iter().all(|off| meet(level - off).is_some()));
+            assert!([1, 2, 100].iter().all(|off| meet(level + off).is_none()));
+        }
+    }
+
+    #[test]
+    fn beyond_the_range_points_lie_on_it() {
+        const ONE: i32 = 1 << 17;
+        // Three units of height at 2⁻¹⁴: 49,152 units away.
+        let floor = Plane::<Fixed>::new([0.0, 1.0, 0.0], -2.0, 0);
+        let ray = far_ray([0, -8, ONE]);
+        let t = floor.meet::<{ uses::ALL }>(&ray, Fixed::FAR).unwrap().distance;
+        assert!(t == Fixed::HORIZON && t < Fixed::FAR);
+        let mut p = Fixed::along(&ray.origin, t, &ray.direction);
+        let local = floor.settle::<{ uses::ALL }>(&ray, t, &mut p).map(|x| x.to_num::<f64>());
+        assert_eq!([local[0], local[1]], [2.0, -2.0]);
+        assert!((local[2] - (49152.0 - 65536.0)).abs() < 0.5, "{}", local[2]);
+        let [x, y, z] = p.map(|x| x.to_num::<f64>());
+        assert!(x == 2.0 && y == -2.0 && z > 1023.0 && z <= 1024.0);
+
+        let slope = Plane::<Fixed>::new([0.0, 1.0, -0.001], -2.0, 0);
+        let ray = far_ray([0, 123, ONE]);
+        let t = slope.meet::<{ uses::ALL }>(&ray, Fixed::FAR).unwrap().distance;
+        let mut p = Fixed::along(&ray.origin, t, &ray.direction);
+        slope.settle::<{ uses::ALL }>(&ray, t, &mut p);
+        let [_, y, z] = p.map(|x| x.to_num::<f64>());
+        assert!(t == Fixed::HORIZON && (y + 2.0 - 0.001 * z).abs() < 0.01, "{y} {z}");
+    }
+
+    #[test]
+    fn it_blocks_on_this_side_of_the_light_alone() {
+        let wall = Plane::<Fixed>::new([0.0, 0.0, 1.0], 500.0, 0);
+        let blocks = |plane: &Plane<Fixed>, d, limit: f64| {
+            plane.blocks::<{ uses::ALL }>(&far_ray(d), fixed::types::I16F16::from_num(limit))
         };
-        let coarse = Fixed::coarse(&ray.origin, &ray.direction);
-        let hit = floor.nearest(&ray, &coarse, false, Fixed::FAR);
-        assert!(hit.is_none_or(|m| m.distance >= Fixed::FAR));
+        let across = [0, 0, 1 << 17];
+        assert!(blocks(&wall, across, 501.0) && !blocks(&wall, across, 499.0));
+        assert!(!blocks(&wall, [0, 0, -1 << 17], 2000.0));
+        // A floor that is met 1,500 units away; a directional light is at `FAR`, and beyond everything.
+        let floor = Plane::<Fixed>::new([0.0, 1.0, 0.0], 0.0, 0);
+        let down = [0, -87, 1 << 17];
+        assert!(blocks(&floor, down, 1600.0) && !blocks(&floor, down, 1400.0));
+        assert!(blocks(&floor, down, 1024.0) && !blocks(&floor, down, 1023.0));
     }
 }

@@ -5,13 +5,15 @@
 //! third corner (Wald 2004): the point is inside where neither they nor the first corner's weight
 //! is negative.
 //!
+//! In fixed point the first corner is the one opposite the longest side, wherever a needle starts.
+//!
 //! The weights are rounded, and so is the point; neighbours round differently. To leave no cracks
 //! along shared edges, a triangle is larger than it is by what a hit may be off (see
 //! [`Arithmetic::barycentric`]): two neighbours overlap by some steps of their precision.
 
 use bytemuck::AnyBitPattern;
 
-use super::projection::{Projection, abs, cycled, dominant, minus, reach, uncycled};
+use super::projection::{Projection, abs, cycled, dominant, dot, minus, reach, uncycled};
 use super::{MaterialId, Meeting, Ray, Shape, ShapeError, Surface};
 use super::{ok_or_panic, rounded_point, some_or};
 use crate::blob::stored;
@@ -27,10 +29,27 @@ pub struct Triangle<A: Arithmetic> {
     corner: [A::Length; 2],
     form: A::Barycentric,
     material: MaterialId,
-    axis: u8,
+    /// The dominant axis; and, times 4, which of the corners is the first.
+    axis_and_turn: u8,
 }
 
-stored!(Triangle { plane: nested, corner: lengths, form: nested, material: whole, axis: whole } if *axis < 3);
+stored!(Triangle { plane: nested, corner: lengths, form: nested, material: whole, axis_and_turn: whole }
+    if *axis_and_turn < 12 && *axis_and_turn & 3 < 3);
+
+/// The corner opposite the longest side. With it as the first no form is steeper than a short side
+/// needs, and rounded coefficients move no edge by more than the precision of points.
+const fn opposite_longest(corners: &[[f64; 3]; 3]) -> u8 {
+    let [a, b, c] = *corners;
+    let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
+    let (ab, bc, ca) = (dot(ab, ab), dot(bc, bc), dot(ca, ca));
+    if bc >= ca && bc >= ab {
+        0
+    } else if ca >= ab {
+        1
+    } else {
+        2
+    }
+}
 
 for_each_arithmetic! {
     impl Triangle<A> {
@@ -52,9 +71,13 @@ for_each_arithmetic! {
                 return Err(ShapeError::Material);
             }
             // Neighbours share the rounded corners.
-            let a = rounded_point!(make, corners[0]);
-            let b = rounded_point!(make, corners[1]);
-            let c = rounded_point!(make, corners[2]);
+            let corners = [
+                rounded_point!(make, corners[0]),
+                rounded_point!(make, corners[1]),
+                rounded_point!(make, corners[2]),
+            ];
+            let turn = if <A as Arithmetic>::REFINE { opposite_longest(&corners) } else { 0 };
+            let [a, b, c] = cycled(&corners, turn);
             let (ab, ac) = (minus(b, a), minus(c, a));
             let normal = cross_f64(ab, ac);
             let third = 1.0 / 3.0;
@@ -77,7 +100,7 @@ for_each_arithmetic! {
                 ],
                 form: some_or!(form, Degenerate),
                 material: MaterialId::new(material),
-                axis,
+                axis_and_turn: axis | turn << 2,
             })
         }
 
@@ -104,7 +127,7 @@ for_each_arithmetic! {
                 }
                 i += 1;
             }
-            let (min, max) = (uncycled(&min, self.axis), uncycled(&max, self.axis));
+            let (min, max) = (uncycled(&min, self.axis()), uncycled(&max, self.axis()));
             Extent::Box {
                 min: [
                     make::grid(min[0], log2_step),
@@ -133,11 +156,23 @@ for_each_arithmetic! {
 }
 
 impl<A: Arithmetic> Triangle<A> {
+    #[inline(always)]
+    const fn axis(&self) -> u8 {
+        self.axis_and_turn & 3
+    }
+
     /// The weights of the second and third corner at a point of the triangle.
     #[inline(always)]
     pub(crate) fn weights(&self, p: &[A::Length; 3]) -> (A::Weight, A::Weight) {
-        let p = cycled(p, self.axis);
-        A::weights(&self.form, p[1] - self.corner[0], p[2] - self.corner[1])
+        let p = cycled(p, self.axis());
+        let (b, c) = A::weights(&self.form, p[1] - self.corner[0], p[2] - self.corner[1]);
+        // Back to the order that the corners were given in.
+        let a = A::FULL - b - c;
+        match self.axis_and_turn >> 2 {
+            0 => (b, c),
+            1 => (a, b),
+            _ => (c, a),
+        }
     }
 }
 
@@ -158,7 +193,7 @@ impl<A: Arithmetic> Shape<A> for Triangle<A> {
         _: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        let hit = self.plane.crossing(self.axis, ray, limit)?;
+        let hit = self.plane.crossing(self.axis(), ray, limit)?;
         let (x, y) = (hit.point[0] - self.corner[0], hit.point[1] - self.corner[1]);
         A::barycentric(&self.form, x, y, hit.distance, hit.slope)?;
         Some(hit.meeting())
@@ -166,7 +201,7 @@ impl<A: Arithmetic> Shape<A> for Triangle<A> {
 
     #[inline(always)]
     fn surface(&self, ray: &Ray<A>, _: &Meeting<A>, _: &mut [A::Length; 3]) -> Surface<A> {
-        self.plane.surface(self.axis, ray)
+        self.plane.surface(self.axis(), ray)
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 //! kinds here, once, out of line: their code is shared, and the short loops keep the registers.
 
 use crate::math::Arithmetic;
-use crate::scene::uses::{self, has};
+use crate::scene::uses::{self, has, has_others};
 use crate::scene::{Scene, Shapes, with_shape};
 use crate::shape::{MaterialId, Meeting, Ray, Shape, Surface};
 
@@ -77,17 +77,20 @@ pub(super) fn surface_at<A: Arithmetic, const USES: u64>(
     } else if has(USES, uses::PLANES)
         && let Some(plane) = parts.planes.get(id.wrapping_sub(scene.first_plane) as usize)
     {
+        let local = plane.settle::<USES>(ray, meeting.distance, p);
         let surface = plane.surface_seen::<USES>(ray);
         let (mirror, outside) = plane.back::<USES>(ray, &surface, p, meeting.distance);
-        Some(Place { surface, material: plane.material(), local: *p, mirror, outside })
+        Some(Place { surface, material: plane.material(), local, mirror, outside })
     } else if has(USES, uses::INSTANCES) && id >= scene.bounded {
         let (found, point) = surface_in_instance(scene, id, *ray, *meeting)?;
         *p = point;
         Some(Place::new(found, (ray, meeting, p)))
-    } else {
+    } else if has_others(USES) {
         let found = surface_of_other::<A, USES>(shapes, id, *ray, *meeting, *p)?;
         *p = found.local;
         Some(Place::new(found, (ray, meeting, p)))
+    } else {
+        None
     }
 }
 

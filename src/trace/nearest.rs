@@ -154,7 +154,16 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
     each!(planes, has(USES, uses::SEVERAL_PLANES), |plane| {
         tally.test();
         if id != ray.leaving.shape {
-            best.take(plane.meet::<USES>(ray, best.distance), id);
+            let meeting = plane.meet::<USES>(ray, best.distance);
+            // Of two planes at the horizon it is the detail that tells which is nearer.
+            if has(USES, uses::SEVERAL_PLANES)
+                && let Some(Meeting { distance, detail }) = meeting
+                && distance == best.distance
+                && detail < best.detail
+            {
+                best.shape = u32::MAX;
+            }
+            best.take(meeting, id);
         }
         id += 1;
     });

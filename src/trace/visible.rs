@@ -208,7 +208,7 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         if found.is_none() {
             tally.test();
             let left = id == ray.leaving.shape;
-            if !left && plane.meet::<USES>(ray, limit).is_some_and(|m| m.distance < limit) {
+            if !left && plane.blocks::<USES>(ray, limit) {
                 found = Some(id);
             }
             id += 1;

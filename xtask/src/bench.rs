@@ -1,6 +1,8 @@
 //! Counting: instructions, rays, code and memory, in a table that is committed, so that a change
 //! shows as a difference.
 
+mod images;
+
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
@@ -111,7 +113,8 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     let (mut frames, mut images) = (FRAMES, IMAGES);
     let (mut rebuilds, mut rp2040) = (REBUILDS, CYCLES);
     if options.machine.is_none() {
-        kernels(&mut images)?;
+        images::kernels(&mut images)?;
+        images::others(&mut images)?;
         println!("RP2040 (rp2040py) …");
         cycles(&mut rp2040)?;
     }
@@ -125,7 +128,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         let memory = count(machine, &firmware, &mut frames, &mut rebuilds)?;
         if !seen.contains(&firmware) {
             let name = format!("firmware {}, all scenes in both", machine.board);
-            image(&mut images, &name, machine.target, &firmware, Some(memory))?;
+            images::image(&mut images, &name, machine.target, &firmware, Some(memory))?;
             seen.push(firmware);
         }
     }
@@ -291,36 +294,6 @@ fn frame(machine: &Machine, job: &Job, record: Record<'_>) -> Result<Vec<String>
         format!("{:.2}", shadow / pixels),
         record.get("stack")?.into(),
     ])
-}
-
-/// The programs that are nothing but a tracer.
-fn kernels(table: &mut Table) -> Result<(), String> {
-    for target in ["thumbv6m-none-eabi", "thumbv7em-none-eabihf"] {
-        for bin in ["limit-fixed", "limit-f32"] {
-            let program = machine::build(&boards().join("size"), bin, target)?;
-            image(table, bin, target, &program, None)?;
-        }
-    }
-    Ok(())
-}
-
-fn image(
-    table: &mut Table,
-    name: &str,
-    target: &str,
-    program: &Path,
-    memory: Option<u64>,
-) -> Result<(), String> {
-    let sizes = elf::sizes(program)?;
-    table.rows.push(vec![
-        name.into(),
-        target.into(),
-        sizes.text.to_string(),
-        String::new(),
-        sizes.constants.to_string(),
-        memory.map_or_else(String::new, |bytes| bytes.to_string()),
-    ]);
-    Ok(())
 }
 
 /// The table as it was committed last, or as it lies there.

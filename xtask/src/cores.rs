@@ -17,6 +17,10 @@ const FLASH_SIZE: usize = 2 << 20;
 const MARK: u8 = 15;
 /// Steps of the emulator without a frame: some minutes.
 const PATIENCE: u64 = 2_000_000_000;
+/// What the second core's stack is filled with beforehand.
+const PAINT: u32 = 0xa5c3_3c5a;
+/// The lowest bytes of it, which the core may not reach (a guard of `rp2040-hal`).
+const GUARD: u64 = 32;
 
 /// What a frame took.
 #[derive(Clone, Copy, Debug)]
@@ -25,16 +29,27 @@ pub(crate) struct Frame {
     pub(crate) cycles: [u64; 2],
     /// The sum over the pixels.
     pub(crate) sum: u32,
+    /// Bytes of the second core's stack: the deepest it was, and all but the guard.
+    pub(crate) stack: [u64; 2],
 }
 
-/// Runs an image from its reset vector until the frame is traced.
+/// Runs an image, which has its code in RAM, from its reset vector until the frame is traced. In the meantime the
+/// flash is empty: whatever the frame still needed of it would be missed.
 pub(crate) fn trace(image: &Path, job: &Job) -> Result<Frame, String> {
     let mut chip = boot(image, job)?;
+    let [bottom, top] = ["_second_stack_end", "_second_stack_start"]
+        .map(|name| elf::symbol(image, name).map(|(address, _)| address));
+    let (bottom, top) = (bottom?, top?);
+    let words = || (bottom..top).step_by(4).map(|address| address as u32);
+    words().for_each(|address| chip.poke(address, PAINT));
     let start = wait(&mut chip, true, job, |_| {})?;
+    chip.load_flash(&vec![0xff; FLASH_SIZE]);
     let end = wait(&mut chip, false, job, |_| {})?;
     let cycles = [end[0] - start[0], end[1] - start[1]];
     let (result, _) = elf::symbol(image, "TRACED")?;
-    Ok(Frame { cycles, sum: chip.peek(result as u32) })
+    let free = words().take_while(|&address| chip.peek(address) == PAINT).count() as u64 * 4;
+    let stack = [top - bottom - free, top - bottom - GUARD];
+    Ok(Frame { cycles, sum: chip.peek(result as u32), stack })
 }
 
 /// The same on the first core alone, telling each instruction of the frame: its address, and the
@@ -67,7 +82,7 @@ fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
     let rom = std::fs::read(&rom).map_err(|error| format!("{}: {error}", rom.display()))?;
 
     let mut flash = vec![0xff; FLASH_SIZE];
-    for (address, data) in elf::segments(image)? {
+    for elf::Segment { address, data, .. } in elf::segments(image)? {
         let start = address.checked_sub(FLASH).ok_or("a segment below the flash")? as usize;
         let place = flash.get_mut(start..start + data.len()).ok_or("larger than the flash")?;
         place.copy_from_slice(&data);
@@ -98,6 +113,10 @@ fn wait(
         look(chip);
         if chip.gpio_read(MARK) == level {
             return Ok([0, 1].map(|core| chip.core_cycles(core)));
+        }
+        // A fault, whose handler's address can't be read either.
+        if chip.core(0).regs.pc() == 0 {
+            return Err(format!("{job}: the core wanted something of the erased flash"));
         }
     }
     Err(format!("{job}: no frame"))

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use addr2line::Loader;
-use object::elf::PT_LOAD;
+use object::elf::{PF_X, PT_LOAD};
 use object::read::elf::{ElfFile32, ProgramHeader};
 use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SymbolKind};
 
@@ -22,13 +22,19 @@ pub(crate) fn sizes(path: &Path) -> Result<Sizes, String> {
         let mut sizes = Sizes::default();
         for section in elf.sections() {
             match section.name().unwrap_or_default() {
-                ".text" => sizes.text += section.size(),
-                ".rodata" => sizes.constants += section.size(),
+                // What is copied to RAM has sections of its own.
+                ".text" | ".ram.text" => sizes.text += section.size(),
+                ".rodata" | ".ram.rodata" => sizes.constants += section.size(),
                 _ => {}
             }
         }
         Ok(sizes)
     })
+}
+
+/// Bytes of RAM that hold statics, of a program by cortex-m-rt.
+pub(crate) fn static_bytes(path: &Path) -> Result<u64, String> {
+    Ok(symbol(path, "__sheap")?.0 - symbol(path, "__sdata")?.0)
 }
 
 /// Where a program, linked with its relocations kept, calls the functions that panics start in:
@@ -114,8 +120,18 @@ fn is_double(function: &str) -> bool {
     }
 }
 
-/// What a program puts into memory: bytes and the address they are loaded from.
-pub(crate) fn segments(path: &Path) -> Result<Vec<(u64, Vec<u8>)>, String> {
+/// What a program puts into memory.
+pub(crate) struct Segment {
+    /// Where it is loaded from.
+    pub(crate) address: u64,
+    /// Where it then is: elsewhere if it is copied to RAM at the start.
+    pub(crate) place: u64,
+    pub(crate) data: Vec<u8>,
+    pub(crate) is_code: bool,
+}
+
+/// All that a program puts into memory.
+pub(crate) fn segments(path: &Path) -> Result<Vec<Segment>, String> {
     with(path, |elf| {
         let endian = elf.endian();
         let mut segments = Vec::new();
@@ -124,7 +140,12 @@ pub(crate) fn segments(path: &Path) -> Result<Vec<(u64, Vec<u8>)>, String> {
                 continue;
             }
             let data = header.data(endian, elf.data()).map_err(|()| "a segment is cut off")?;
-            segments.push((u64::from(header.p_paddr(endian)), data.to_vec()));
+            segments.push(Segment {
+                address: header.p_paddr(endian).into(),
+                place: header.p_vaddr(endian).into(),
+                data: data.to_vec(),
+                is_code: (header.p_flags(endian) & PF_X) == PF_X,
+            });
         }
         Ok(segments)
     })
@@ -136,6 +157,45 @@ pub(crate) fn symbol(path: &Path, name: &str) -> Result<(u64, u64), String> {
         let symbol = elf.symbols().find(|symbol| symbol.name() == Ok(name));
         let symbol = symbol.ok_or_else(|| format!("{}: no symbol {name}", path.display()))?;
         Ok((symbol.address(), symbol.size()))
+    })
+}
+
+/// What a program with `boards/ram.x` has of the library and the scenes is in RAM, functions and statics
+/// alike; how many of either.
+pub(crate) fn in_ram(path: &Path) -> Result<[usize; 2], String> {
+    /// Where RAM begins on the chips that have such a program.
+    const RAM: u64 = 0x2000_0000;
+    /// Some of what has to be there: code, tables, a tree.
+    const HOT: [&str; 5] = [
+        "whitted::trace::",
+        "whitted::math::root::RECIPROCAL",
+        "whitted::math::root::RECIPROCAL_ROOT",
+        "whitted::frame::tone::CURVE",
+        "::bathroom::WORDS",
+    ];
+    with(path, |elf| {
+        let (mut found, mut count) = ([false; HOT.len()], [0; 2]);
+        for symbol in elf.symbols() {
+            let name = name(symbol.name());
+            let kind = match symbol.kind() {
+                SymbolKind::Text => 0,
+                SymbolKind::Data => 1,
+                _ => continue,
+            };
+            // From flash, what is in RAM is called by way of a piece of code with its name.
+            if !name.contains("whitted") || name.starts_with("__Thumb") {
+                continue;
+            }
+            if symbol.address() < RAM {
+                return Err(format!("{name} is at {:#x}", symbol.address()));
+            }
+            count[kind] += 1;
+            HOT.iter().zip(&mut found).for_each(|(hot, found)| *found |= name.contains(hot));
+        }
+        match HOT.iter().zip(found).find(|(_, found)| !found) {
+            Some((hot, _)) => Err(format!("no {hot}")),
+            None => Ok(count),
+        }
     })
 }
 

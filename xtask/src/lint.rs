@@ -8,11 +8,11 @@ use crate::shell::{self, cargo};
 
 /// The Pico's displays, and its log.
 const PICO: [&str; 5] = [
-    "st7789-240x240,rtt",
+    "st7789-240x240,rtt,ram",
     "st7789-240x240",
-    "st7789-240x320,rtt",
-    "st7735s-160x80,rtt",
-    "ili9341-320x240,rtt",
+    "st7789-240x320,rtt,ram",
+    "st7735s-160x80,rtt,ram",
+    "ili9341-320x240,rtt,ram",
 ];
 
 /// Runs cargo as a check.
@@ -72,9 +72,9 @@ pub(crate) fn boards(report: &mut Report) {
     let pico2 = boards.join("pico2");
     step(report, "format, pico2", &pico2, "fmt --all --check");
     for (target, features) in [
-        ("thumbv8m.main-none-eabihf", "rtt,st7789-240x240"),
+        ("thumbv8m.main-none-eabihf", "rtt,ram,st7789-240x240"),
         ("thumbv8m.main-none-eabihf", "one-core,fixed,st7735s-160x80"),
-        ("riscv32imac-unknown-none-elf", "rtt,st7789-240x240"),
+        ("riscv32imac-unknown-none-elf", "rtt,ram,st7789-240x240"),
     ] {
         let words = format!(
             "--locked --target-dir ../target --target {target} --no-default-features \

@@ -26,19 +26,26 @@ struct Display {
     size: (u16, u16),
     /// Where they begin in the controller's memory.
     offset: (u16, u16),
+    /// The controller's memory, before it is turned.
+    native: (u16, u16),
 }
 
 /// All of them, the one of the default features first.
 const DISPLAYS: [Display; 4] = [
-    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0) },
-    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0) },
-    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26) },
-    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0) },
+    Display { name: "st7789-240x240", size: (240, 240), offset: (0, 0), native: (240, 320) },
+    Display { name: "st7789-240x320", size: (240, 320), offset: (0, 0), native: (240, 320) },
+    Display { name: "st7735s-160x80", size: (160, 80), offset: (1, 26), native: (132, 162) },
+    Display { name: "ili9341-320x240", size: (320, 240), offset: (0, 0), native: (240, 320) },
 ];
 /// What the checks draw: the emulator does some ten million cycles a second, if nothing else runs.
 const SMALL: (u16, u16) = (60, 45);
-/// What they draw twice.
+/// What they draw several times.
 const TINY: (u16, u16) = (30, 20);
+/// Bytes of that frame after which SPI stands still: in each of its eight transfers once, which are a command's
+/// byte or its arguments, with which the window is opened, or a band of eight rows, of the last of which it is
+/// the last byte. The firmware gives a frame up after five tries, so four a run.
+const TRANSFERS: [[u32; 4]; 2] =
+    [[0, 3, 5, 9], [10, 11, 11 + 700, 10 + 30 * 20 * rgb565::BYTES as u32]];
 /// How frames get to the display.
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
 /// Sending by DMA may add this to tracing.
@@ -58,8 +65,10 @@ struct Order<'a> {
     job: Job,
     way: &'a str,
     /// SPI stands still after so many bytes of the frame, and, when it is drawn again, after so many
-    /// once more.
-    stick: Option<[u32; 2]>,
+    /// once more, and so on.
+    stick: &'a [u32],
+    /// Whether the flash is erased while a frame is drawn, which the image has its code in RAM for.
+    erase: bool,
 }
 
 /// What came of it.
@@ -104,7 +113,7 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     }
     setup::run()?;
     let image = build(display)?;
-    let order = Order { display, job: job(scene, size), way, stick: None };
+    let order = Order { display, job: job(scene, size), way, stick: &[], erase: true };
     let frame = emulate(&image, &order)?;
     if let Some(file) = file {
         picture::save_rgb565(&file, display.size, &frame.memory)?;
@@ -137,15 +146,19 @@ pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
     let display = &DISPLAYS[0];
     let image = build(display)?;
     let traced = |&job: &Job| {
-        let order = Order { display, job, way: WAYS[2], stick: None };
+        let order = Order { display, job, way: WAYS[2], stick: &[], erase: true };
         emulate(&image, &order).map(|frame| frame.cycles)
     };
     jobs.iter().map(traced).collect()
 }
 
-/// The firmware of the first display, for one core.
-pub(crate) fn image() -> Result<PathBuf, String> {
-    build(&DISPLAYS[0])
+/// The firmware of the first display, for one core, with what these jobs draw.
+pub(crate) fn image(jobs: &[Job]) -> Result<PathBuf, String> {
+    if jobs.iter().any(|job| job.scene.is_for_counting()) {
+        build_with(&DISPLAYS[0], "rtt,one-core,counted")
+    } else {
+        build(&DISPLAYS[0])
+    }
 }
 
 /// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
@@ -154,24 +167,42 @@ pub(crate) fn check(report: &mut Report) {
     let small = job(SceneName::Limit, SMALL);
     let mut cycles = Vec::new();
     for (display, ways) in [(&DISPLAYS[0], &WAYS[..]), (&DISPLAYS[2], &WAYS[..1])] {
-        let name = format!("Pico with {}: the image is built", display.name);
-        let Some(image) = report.check(&name, || build(display)) else { continue };
+        let name = format!("Pico with {}: the image is built, its code in RAM", display.name);
+        let built = report.check(&name, || {
+            let image = build(display)?;
+            let [functions, statics] = elf::in_ram(&image)?;
+            println!("     {functions} functions and {statics} statics");
+            Ok(image)
+        });
+        let Some(image) = built else { continue };
         for &way in ways {
             let name = format!("Pico with {} (rp2040py): {small} by {way}", display.name);
             cycles.extend(report.check(&name, || {
-                let order = Order { display, job: small, way, stick: None };
+                let order = Order { display, job: small, way, stick: &[], erase: true };
                 let frame = emulate(&image, &order)?;
                 compare(&order, &frame)?;
                 Ok(frame.cycles)
             }));
         }
+        let showcase = job(SceneName::Showcase, TINY);
+        report.check(&format!("Pico with {} (rp2040py): {showcase}", display.name), || {
+            let order = Order { display, job: showcase, way: WAYS[0], stick: &[], erase: true };
+            compare(&order, &emulate(&image, &order)?)
+        });
         if display.name == DISPLAYS[0].name {
-            report.check("Pico (rp2040py): SPI stands still, twice", || {
-                stuck(&image, job(SceneName::Limit, TINY)).map(drop)
-            });
+            for transfers in TRANSFERS {
+                let name = format!("Pico (rp2040py): SPI stands still after {transfers:?} bytes");
+                report.check(&name, || {
+                    stuck(&image, job(SceneName::Limit, TINY), &transfers, true).map(drop)
+                });
+            }
         }
     }
-    report.check(&format!("Pico (rp2040-emu): {small} on both cores"), || both_cores(&small));
+    let name = format!("Pico (rp2040-emu): {small} on both cores");
+    if let Some(image) = report.check(&name, || both_cores(&small)) {
+        let name = "Pico (rp2040-emu): the second core's stack, bathroom";
+        report.check(name, || second_stack(&image));
+    }
     report
         .check(&format!("Pico on embassy (rp2040py): {small}, and SPI stands still twice"), || {
             on_embassy(small)
@@ -192,18 +223,19 @@ pub(crate) fn check(report: &mut Report) {
 /// beside the other's.
 fn on_embassy(job: Job) -> Result<(), String> {
     let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
-    println!("     {} cycles", stuck(&image, job)?.cycles);
+    elf::in_ram(&image)?;
+    println!("     {} cycles", stuck(&image, job, &[3, 400], false)?.cycles);
     Ok(())
 }
 
-/// SPI stands still twice: among the commands that open the window, and among a band's pixels. The
-/// log says so each time, and the frame that is then drawn is whole.
-fn stuck(image: &Path, job: Job) -> Result<Frame, String> {
-    let order = Order { display: &DISPLAYS[0], job, way: WAYS[0], stick: Some([3, 400]) };
+/// SPI stands still, after so many bytes of each try. The log says so each time, and the frame that is then
+/// drawn is whole.
+fn stuck(image: &Path, job: Job, stick: &[u32], erase: bool) -> Result<Frame, String> {
+    let order = Order { display: &DISPLAYS[0], job, way: WAYS[0], stick, erase };
     let frame = emulate(image, &order)?;
     let wanted = format!("{}: SPI stands still; the frame is drawn again", job.scene.name());
     let told = frame.log.iter().take_while(|&line| *line == wanted).count();
-    if told != 2 {
+    if told != stick.len() {
         return Err(format!("the log is {:?}", frame.log));
     }
     println!("     {wanted}");
@@ -211,12 +243,13 @@ fn stuck(image: &Path, job: Job) -> Result<Frame, String> {
     Ok(frame)
 }
 
-/// Two cores against one: the same bits, and how much sooner.
-fn both_cores(job: &Job) -> Result<(), String> {
+/// Two cores against one: the same bits, and how much sooner. The image for two.
+fn both_cores(job: &Job) -> Result<PathBuf, String> {
     // Where an image is doesn't depend on its features: each is run before the next is built.
-    let run = |features| cores::trace(&build_with(&DISPLAYS[0], features)?, job);
-    let one = run("one-core")?;
-    let two = run("rtt")?;
+    let one = cores::trace(&build_with(&DISPLAYS[0], "ram,one-core")?, job)?;
+    let two_image = build_with(&DISPLAYS[0], "rtt,ram")?;
+    elf::in_ram(&two_image)?;
+    let two = cores::trace(&two_image, job)?;
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
     rgb565::draw(job.scene, job.width, job.height, &mut picture);
     let sum = rgb565::sum(0, &picture);
@@ -226,7 +259,18 @@ fn both_cores(job: &Job) -> Result<(), String> {
     let busier = two.cycles[0].max(two.cycles[1]);
     let ratio = one.cycles[0] as f64 / busier as f64;
     println!("     one core {} cycles, two {:?}: {ratio:.2} times", one.cycles[0], two.cycles);
-    if ratio >= TWO_CORES { Ok(()) } else { Err(format!("only {ratio:.2} times as fast")) }
+    if ratio < TWO_CORES {
+        return Err(format!("only {ratio:.2} times as fast"));
+    }
+    Ok(two_image)
+}
+
+/// The deepest scene on both cores: the second one's stack is large enough.
+fn second_stack(image: &Path) -> Result<(), String> {
+    let job = job(SceneName::Bathroom, TINY);
+    let [used, all] = cores::trace(image, &job)?.stack;
+    println!("     {used} bytes of {all}");
+    if used > 0 && used < all { Ok(()) } else { Err(format!("{used} bytes of {all}")) }
 }
 
 fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
@@ -234,7 +278,7 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
 }
 
 fn build(display: &Display) -> Result<PathBuf, String> {
-    build_with(display, "rtt,one-core")
+    build_with(display, "rtt,ram,one-core")
 }
 
 fn build_with(display: &Display, more: &str) -> Result<PathBuf, String> {
@@ -250,11 +294,13 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     let _ = std::fs::remove_file(&dump);
     let mut python = Command::new(setup::python()?);
     // Nothing is to be written into the sources.
-    python.arg("-B").arg(boards().join("pico/emulate/emulate.py")).arg(image);
+    python.arg("-B").arg(boards().join("pico/emulate/emulate.py"));
+    python.args(order.erase.then_some("--erase")).arg(image);
     python.arg(format!("{} {}", order.job, order.way));
-    let Display { size, offset, .. } = order.display;
-    python.args([size.0, size.1, offset.0, offset.1].map(|n| n.to_string())).arg(&dump);
-    python.args(order.stick.iter().flatten().map(u32::to_string));
+    let Display { size, offset, native, .. } = order.display;
+    let numbers = [size.0, size.1, offset.0, offset.1, native.0, native.1];
+    python.args(numbers.map(|n| n.to_string())).arg(&dump);
+    python.args(order.stick.iter().map(u32::to_string));
     let text = output(&mut python)?;
     let line = text
         .lines()
@@ -314,8 +360,8 @@ mod tests {
     #[test]
     fn one_wrong_bit_is_found() {
         let display = &DISPLAYS[0];
-        let order =
-            Order { display, job: job(SceneName::Limit, (8, 6)), way: WAYS[0], stick: None };
+        let job = job(SceneName::Limit, (8, 6));
+        let order = Order { display, job, way: WAYS[0], stick: &[], erase: false };
         let mut frame =
             Frame { memory: expected(&order), cycles: 0, line: String::new(), log: Vec::new() };
         assert!(frame.memory.iter().any(|&byte| byte != 0));

@@ -85,11 +85,18 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
 
 /// Builds the image, runs it until the frame is traced, compares, and says what it took.
 fn trace(target: &str, job: &Job) -> Result<String, String> {
-    let features = "st7789-240x240,rtt,one-core,fixed";
+    let features = "st7789-240x240,rtt,ram,one-core,fixed";
     let more = ["--no-default-features", "--features", features];
     let image = machine::build_with(&boards().join("pico2"), "pico2", target, &more)?;
+    if !elf::is_riscv(&image)? {
+        elf::in_ram(&image)?;
+    }
     let mut chip = boot(&image, job)?;
     let start = wait(&mut chip, true, job)?;
+    if !elf::is_riscv(&image)? {
+        // What the frame needs is in RAM.
+        chip.load_flash(&vec![0xff; FLASH_SIZE]);
+    }
     let cycles = wait(&mut chip, false, job)? - start;
 
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
@@ -108,11 +115,15 @@ fn trace(target: &str, job: &Job) -> Result<String, String> {
 /// The chip with an image that is to trace a job, about to begin it.
 fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
     let mut flash = vec![0xff; FLASH_SIZE];
-    for (address, data) in elf::segments(image)? {
+    let riscv = elf::is_riscv(image)?;
+    for elf::Segment { address, mut data, is_code, .. } in elf::segments(image)? {
         // What lies in RAM has no beginning: it is the log's buffer.
         let Some(start) = address.checked_sub(FLASH).filter(|&start| start < RAM - FLASH) else {
             continue;
         };
+        if is_code && !riscv {
+            make_plain(&mut data);
+        }
         let start = start as usize;
         let place = flash.get_mut(start..start + data.len()).ok_or("larger than the flash")?;
         place.copy_from_slice(&data);
@@ -122,7 +133,6 @@ fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
     let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
     flash[start..start + text.len()].copy_from_slice(text.as_bytes());
 
-    let riscv = elf::is_riscv(image)?;
     let arch = if riscv { Arch::RiscV } else { Arch::Arm };
     let builder = EmulatorBuilder::new(Config::default()).arch(arch).step_quantum(1);
     let mut chip = builder.build().map_err(|error| format!("{error:?}"))?;
@@ -131,9 +141,6 @@ fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
         // The stack's end and the program's start.
         rom[..8].copy_from_slice(&flash[..8]);
         rom[ASIDE as usize..][..WAITING.len()].copy_from_slice(&WAITING);
-        // By cortex-m-rt's linker script.
-        let (end, _) = elf::symbol(image, "__etext")?;
-        make_plain(flash.get_mut(..(end - FLASH) as usize).ok_or("code beyond the flash")?);
     }
     chip.load_bootrom(&rom);
     chip.load_flash(&flash);

@@ -118,7 +118,7 @@ impl Options {
 pub(crate) fn run(options: &Options) -> Result<(), String> {
     setup::run()?;
     let target = options.target;
-    let image = source::build(target)?;
+    let image = source::build(target, &options.jobs)?;
     for job in &options.jobs {
         let mut follower = Follower::new(&image)?;
         let told = source::execute(target, &image, job, &mut follower)?;

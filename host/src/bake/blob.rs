@@ -114,32 +114,48 @@ pub fn parts_of<A: Construct>(counts: &Counts) -> Vec<(&'static str, usize, usiz
     use whitted::shape::{
         Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, SmoothTriangle, Sphere, Triangle,
     };
+    // What one is called, and several.
     let sizes = [
-        ("spheres", size_of::<Sphere<A>>()),
-        ("triangles", size_of::<Triangle<A>>()),
-        ("smooth triangles", size_of::<SmoothTriangle<A>>()),
-        ("polygons", size_of::<Polygon<A>>()),
-        ("edges", size_of::<PolygonEdge<A>>()),
-        ("boxes", size_of::<Cuboid<A>>()),
-        ("discs", size_of::<Disc<A>>()),
-        ("cylinders", size_of::<Cylinder<A>>()),
-        ("cones", size_of::<Cone<A>>()),
-        ("planes", size_of::<Plane<A>>()),
+        ("sphere", "spheres", size_of::<Sphere<A>>()),
+        ("triangle", "triangles", size_of::<Triangle<A>>()),
+        ("smooth triangle", "smooth triangles", size_of::<SmoothTriangle<A>>()),
+        ("polygon", "polygons", size_of::<Polygon<A>>()),
+        ("edge", "edges", size_of::<PolygonEdge<A>>()),
+        ("box", "boxes", size_of::<Cuboid<A>>()),
+        ("disc", "discs", size_of::<Disc<A>>()),
+        ("cylinder", "cylinders", size_of::<Cylinder<A>>()),
+        ("cone", "cones", size_of::<Cone<A>>()),
+        ("plane", "planes", size_of::<Plane<A>>()),
     ];
     let mut all: Vec<_> = sizes
         .into_iter()
         .zip(counts.shapes)
-        .map(|((name, size), count)| (name, count as usize, size * count as usize))
+        .map(|((one, several, size), count)| {
+            (if count == 1 { one } else { several }, count as usize, size * count as usize)
+        })
         .collect();
-    all.push(("octree words", counts.words as usize, 4 * counts.words as usize));
+    let words = counts.words as usize;
+    all.push((if words == 1 { "octree word" } else { "octree words" }, words, 4 * words));
     let list = |count: u32, size: usize| (count as usize, size * count as usize);
-    for (name, (count, bytes)) in [
-        ("texture coordinates", list(counts.uvs, size_of::<TriangleUv>())),
-        ("irradiance records", list(counts.records, size_of::<Record<A>>())),
-        ("virtual lights", list(counts.virtual_lights, size_of::<VirtualLight<A>>())),
-        ("corners of area lights", list(counts.corners, size_of::<[f64; 3]>())),
+    for (one, several, (count, bytes)) in [
+        (
+            "texture coordinates",
+            "texture coordinates",
+            list(counts.uvs, size_of::<TriangleUv>()),
+        ),
+        ("irradiance record", "irradiance records", list(counts.records, size_of::<Record<A>>())),
+        (
+            "virtual light",
+            "virtual lights",
+            list(counts.virtual_lights, size_of::<VirtualLight<A>>()),
+        ),
+        (
+            "corner of area lights",
+            "corners of area lights",
+            list(counts.corners, size_of::<[f64; 3]>()),
+        ),
     ] {
-        all.push((name, count, bytes));
+        all.push((if count == 1 { one } else { several }, count, bytes));
     }
     let Counts { materials, lights, absorptions, textures, area_lights, .. } = *counts;
     let Counts { groups, instances, solids, .. } = *counts;

@@ -8,7 +8,7 @@
 //!
 //! What the range is filled with:
 //! - The shapes reach from 64 to 128 units from the origin. Where there are endless planes they
-//!   reach from 8 to 16: a plane ends where the range does, and the horizon must not come near.
+//!   reach from 8 to 16: planes have no end, but points on them are exact within the range alone.
 //! - Lights and camera lie within ±[`REACH`]. Where one lies farther the scale is smaller.
 //! - A light so far that its direction changes by less than [`PARALLEL`] over the whole scene is
 //!   made directional, which it is to the eye; anything nearer keeps its place. Moving a light

@@ -329,7 +329,12 @@ pub(crate) const fn from_grid(x: i32, _log2_step: i8) -> I16F16 {
     I16F16::from_bits(x)
 }
 
-/// The side of an octree of 2^`log2_side` steps, as `Arithmetic::spans` takes it.
-pub(crate) const fn log2_side(log2_side: u8, _log2_step: i8) -> i8 {
-    log2_side as i8
+/// For `Arithmetic::cells_before`: 2²⁰ over a cell's side of `mantissa << shift` steps, whose shift is
+/// its business. Rounded up, it is less than 2⁻²⁰ too large: of eleven bits less than 2⁻⁹ of a cell, which
+/// is less than a step of the mantissa, so the quotient's floor is exact.
+pub(crate) const fn per_cell(mantissa: u8, _shift: u8, _log2_step: i8) -> i32 {
+    match 0xf_ffff_u32.checked_div(mantissa as u32) {
+        Some(quotient) => quotient as i32 + 1,
+        None => 0,
+    }
 }

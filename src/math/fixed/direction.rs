@@ -28,9 +28,18 @@ fn inverse_root(s: u32) -> (u32, u32, u32) {
     (reciprocal_root_q29(m), half, m)
 }
 
-/// The unit vector along three integers, to 17 bits, and their length.
+/// `t·u / 2²¹` to the nearest, for |t| ≤ 2²² and |u| ≤ 2¹⁷.
 #[inline(always)]
-pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
+fn rounded_product(t: i32, u: i32) -> i32 {
+    let high = (t >> 13).wrapping_mul(u);
+    let low = (t & 0x1fff).wrapping_mul(u) >> 13;
+    high.wrapping_add(low).wrapping_add(1 << 7) >> 8
+}
+
+/// Along three integers: those shifted to where the largest is in 2²⁹ to 2³⁰, the reciprocal y of their
+/// length for which x·y/2²⁹ is the unit vector in Q17, and the length.
+#[inline(always)]
+fn along(v: &[i32; 3]) -> ([i32; 3], i32, i32) {
     // Fifteen bits a component, so that three squares fit a word, and five more for the
     // first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
     let (x, up) = align(v);
@@ -41,11 +50,27 @@ pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
         correction = correction.wrapping_add(high.wrapping_mul(low));
     }
     let (y_q29, half, m) = inverse_root(square.wrapping_add((correction >> 4) as u32));
-    // x·Y·2^(half − 14) in Q17, as (x/2¹²)·(Y·2^half in Q15)/2¹⁷
+    // x·Y·2^(half − 14) in Q17, as x·(Y·2^half in Q15)/2²⁹
     let y = (y_q29 >> (14 - half)) as i32;
-    let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
     let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
+    (x, y, length)
+}
+
+/// The unit vector along three integers, to 17 bits, and their length.
+#[inline(always)]
+pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
+    let (x, y, length) = along(v);
+    let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
     ([unit(x[0]), unit(x[1]), unit(x[2])], length)
+}
+
+/// See `Arithmetic::sight`: to the nearest, since a floor would turn every ray by half a step and lower
+/// the horizon.
+#[inline(always)]
+pub(super) fn sight(v: &[i32; 3]) -> [Unit; 3] {
+    let (x, y, _) = along(v);
+    let unit = |x: i32| Unit::from_bits(rounded_product(x >> 8, y));
+    [unit(x[0]), unit(x[1]), unit(x[2])]
 }
 
 /// See `Arithmetic::normalize`.

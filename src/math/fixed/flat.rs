@@ -30,6 +30,16 @@ fn slack_steps(slope: Unit, s: u8) -> i32 {
     3 + if off > 1024 { 1024 } else { off }
 }
 
+/// By how many eighths of such a step a hit may be off: four steps of a length over the slope. What
+/// [`slack_steps`] says for coordinates rounded, in haste and for the worst.
+#[inline(always)]
+fn off_in_eighths(slope: Unit, s: u8) -> i32 {
+    let (_, z) = root::normalize(slope.to_bits() as u32 | 1);
+    let up = if z > 24 { 10 } else { z.saturating_sub(14) };
+    let off = (32 << up >> s) + 1;
+    if off > 8192 { 8192 } else { off }
+}
+
 /// See `Arithmetic::barycentric`.
 #[inline(always)]
 pub(super) fn barycentric(
@@ -39,6 +49,7 @@ pub(super) fn barycentric(
     slope: Unit,
 ) -> Option<(Weight, Weight)> {
     let s = form.shift & 31;
+    let exact = [x.to_bits(), y.to_bits()];
     let (x, y) = (steps(x, s), steps(y, s));
     if x as i16 as i32 != x || y as i16 as i32 != y {
         return None;
@@ -57,10 +68,39 @@ pub(super) fn barycentric(
         return None;
     }
     let (down_b, down_c) = (form.second_down & 31, form.third_down & 31);
-    let (b, c) = (b >> down_b, c >> down_c);
-    if b.wrapping_add(c) > 16384 + (slack >> down_b) + (slack >> down_c) {
-        return None;
+    // The third edge is where the sum of both is 1. In half a step of the coarser form:
+    let common = if down_b < down_c { down_b } else { down_c };
+    let (down_second, down_third) = (down_b - common, down_c - common);
+    let beyond = |b: i32, c: i32| {
+        (b >> down_second >> 1).wrapping_add(c >> down_third >> 1) - (8192 << common)
+    };
+    // Most hits lie inside by any measure.
+    if b < 0 || c < 0 || beyond(b, c) > 0 {
+        // Coordinates as they were; then half a step for each coefficient, and what the point may be off.
+        let rest = [exact[0].wrapping_sub(x << s), exact[1].wrapping_sub(y << s)];
+        let finer = |form: &[i16; 2]| {
+            (form[0] as i32)
+                .wrapping_mul(rest[0])
+                .wrapping_add((form[1] as i32).wrapping_mul(rest[1]))
+                >> s
+        };
+        let (b, c) = (b.wrapping_add(finer(&form.second)), c.wrapping_add(finer(&form.third)));
+        let reach = (magnitude(x) + magnitude(y)) as i32 >> 1;
+        let off = off_in_eighths(slope, s);
+        let allowed = |p: i32, q: i32| ((magnitude(p) + magnitude(q) + 8) as i32 >> 3) * off;
+        let edge = |form: &[i16; 2]| reach + allowed(form[0] as i32, form[1] as i32);
+        if b < -edge(&form.second) || c < -edge(&form.third) {
+            return None;
+        }
+        let sum = |i: usize| {
+            (form.second[i] as i32 >> down_second) + (form.third[i] as i32 >> down_third)
+        };
+        let edge = (reach >> down_second) + (reach >> down_third) + allowed(sum(0), sum(1));
+        if beyond(b, c) > (edge >> 1) + 2 {
+            return None;
+        }
     }
+    let (b, c) = (b >> down_b, c >> down_c);
     Some((Weight::from_bits(b), Weight::from_bits(c)))
 }
 

@@ -13,6 +13,7 @@ mod cone;
 pub(crate) mod constructors;
 mod direction;
 mod flat;
+mod horizon;
 mod kernel;
 mod light;
 mod place;
@@ -25,7 +26,7 @@ use super::{Arithmetic, log, root};
 use crate::blob::stored_numbers;
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
-use kernel::{length_times_unit, lengths, magnitude, project, shift, units};
+use kernel::{length_times_unit, lengths, magnitude, project, units};
 
 type Unit = FixedI32<U17>;
 type Weight = FixedI32<U14>;
@@ -160,6 +161,13 @@ pub struct FixedCoarse {
     d_q12: [i32; 3],
 }
 
+/// See [`Arithmetic::Pace`]: `y_q16·2^−down`.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedPace {
+    y_q16: u32,
+    down: u32,
+}
+
 /// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least_q17`
 /// steps of the axis.
 #[derive(Clone, Copy, Debug)]
@@ -198,6 +206,7 @@ impl Arithmetic for Fixed {
     type Coarse = FixedCoarse;
     type DirectionCone = FixedDirectionCone;
     type Aim = Aim;
+    type Pace = FixedPace;
     type Span = i32;
     type Rotation = FixedRotation;
     type Scale = FixedScale;
@@ -205,6 +214,7 @@ impl Arithmetic for Fixed {
     const NAME: &'static str = "fixed";
     const REFINE: bool = true;
     const FAR: I16F16 = I16F16::from_bits(FAR);
+    const HORIZON: I16F16 = I16F16::from_bits(FAR - 1);
     const EVERY_DIRECTION: FixedDirectionCone =
         FixedDirectionCone { axis: [0; 3], least_q17: i32::MIN };
     const NO_LENGTH: I16F16 = I16F16::ZERO;
@@ -283,6 +293,22 @@ impl Arithmetic for Fixed {
         } else {
             I16F16::from_bits((p << (z - 19)) as i32)
         }
+    }
+
+    #[inline(always)]
+    fn endless_ratio(a: I16F16, b: Unit) -> I16F16 {
+        let quotient = Self::ratio(a, b);
+        if quotient > Self::HORIZON { Self::HORIZON } else { quotient }
+    }
+
+    fn beyond_horizon(a: I16F16, b: Unit) -> I16F16 {
+        // In 1024 units: to a million of them.
+        Self::ratio(I16F16::from_bits(a.to_bits() >> 10), b)
+    }
+
+    #[inline(always)]
+    fn endless_point(o: &[I16F16; 3], a: I16F16, b: Unit, d: &[Unit; 3]) -> [I16F16; 3] {
+        horizon::endless_point(o, a, b, d)
     }
 
     #[inline(always)]
@@ -636,27 +662,74 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn sight(v: &[Aim; 3]) -> [Unit; 3] {
-        direction::unit_along(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()]).0
+        direction::sight(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()])
     }
 
     #[inline(always)]
-    fn spans(o: I16F16, d: Unit, log2_side: i8) -> (i32, i32) {
-        // Slower than 2⁻¹⁴, a ray drifts less than the margin that the builder leaves.
-        let d = if d.to_bits() < 8 { 8 } else { d.to_bits() as u32 };
-        let left = (1i32 << (log2_side as u32 & 31)).wrapping_sub(o.to_bits());
-        let left_q16 = shift(left, 16 - i32::from(log2_side)) as u32;
-        let (m, z) = root::normalize(d);
-        let y_q16 = reciprocal_q28(m) >> 12;
-        let p_q24 = (left_q16 >> 8)
-            .wrapping_mul(y_q16)
-            .wrapping_add((left_q16 & 255).wrapping_mul(y_q16) >> 8);
-        // 1/d = y·2^(z − 15)
-        (shift(p_q24 as i32, z as i32 - 23), shift(y_q16 as i32, z as i32 - 15))
+    fn pace(d: Unit) -> FixedPace {
+        // Slower than this, a ray drifts less than the margin that an octree's builder leaves; and what
+        // eight cells and a little take stays below 2³¹.
+        let d = if d.to_bits() < 9 { 9 } else { d.to_bits() as u32 };
+        let (m, z) = root::normalize_large(d << 14);
+        FixedPace { y_q16: reciprocal_q28(m) >> 12, down: 17u32.wrapping_sub(z) }
     }
 
     #[inline(always)]
-    fn span(t: I16F16, log2_side: i8) -> i32 {
-        shift(t.to_bits(), 16 - i32::from(log2_side)).wrapping_add(1)
+    fn takes(a: I16F16, pace: &FixedPace) -> I16F16 {
+        if a >= Self::FAR {
+            return Self::FAR;
+        }
+        // a·y/2¹³, below 2³¹ since a < 2²⁶
+        let bits = a.to_bits() as u32;
+        let p = (bits >> 13)
+            .wrapping_mul(pace.y_q16)
+            .wrapping_add((bits & 0x1fff).wrapping_mul(pace.y_q16) >> 13);
+        // and that times 2^(13 − down), down being 3 to 17
+        if pace.down >= 13 {
+            I16F16::from_bits((p >> (pace.down.wrapping_sub(13) & 31)) as i32)
+        } else if p >> (pace.down.wrapping_add(13) & 31) != 0 {
+            Self::FAR
+        } else {
+            I16F16::from_bits((p << (13u32.wrapping_sub(pace.down) & 31)) as i32)
+        }
+    }
+
+    #[inline(always)]
+    fn spans(left: I16F16, cell: I16F16, pace: &FixedPace, unit: u8) -> (i32, i32) {
+        // Below 2¹⁴ times up to 2¹⁷.
+        let f = |a: I16F16| {
+            let a = (a.to_bits() >> (unit & 31)) as u32;
+            (a.wrapping_mul(pace.y_q16) >> (pace.down & 31)) as i32
+        };
+        (f(left), f(cell))
+    }
+
+    #[inline(always)]
+    fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
+        // Eleven bits hold eight cells; times thirteen: see `per_cell`.
+        let o = o.to_bits() >> (unit & 31) >> 6;
+        if (o as u32) < 1 << 11 {
+            (o as u32).wrapping_mul(per as u32) >> 20
+        } else if o < 0 {
+            0
+        } else {
+            u32::MAX
+        }
+    }
+
+    #[inline(always)]
+    fn cells_long(cell: I16F16, n: u32) -> I16F16 {
+        I16F16::from_bits(cell.to_bits().wrapping_mul(n as i32))
+    }
+
+    #[inline(always)]
+    fn span(t: I16F16, unit: u8) -> i32 {
+        (t.to_bits() >> (unit & 31)).wrapping_add(1)
+    }
+
+    #[inline(always)]
+    fn spans_of(s: i32, n: u32) -> i32 {
+        s.wrapping_mul(n as i32)
     }
 
     #[inline(always)]

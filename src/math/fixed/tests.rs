@@ -261,14 +261,26 @@ proptest! {
     }
 
     #[test]
-    fn spans_to_15_bits(o in 0.0..1.0f64, d in 0.0002..1.0f64, k in 16i8..27) {
-        let side = 2f64.powi(i32::from(k) - 16);
-        let o = I16F16::from_bits((o * side * 65536.0) as i32);
+    fn spans_to_14_bits(left in 0.0..1.0f64, d in 0.0002..1.0f64, m in 128i32..256, unit in 0u8..12) {
+        let cell = m << (6 + unit);
+        let left = (left * f64::from(cell)) as i32;
         let d = make::unit(d).unwrap();
-        let (exit, whole) = Fixed::spans(o, d, k);
-        let exact = (side - o.to_num::<f64>()) / d.to_num::<f64>() / side * 65536.0;
-        prop_assert!((f64::from(exit) - exact).abs() <= exact * 2e-5 + 2.0 / d.to_num::<f64>(), "{exit} {exact}");
-        let exact = 65536.0 / d.to_num::<f64>();
-        prop_assert!((f64::from(whole) - exact).abs() <= exact * 2e-5 + 1.0);
+        let (exit, whole) = Fixed::spans(I16F16::from_bits(left), I16F16::from_bits(cell), &Fixed::pace(d), unit);
+        for (found, way) in [(exit, left), (whole, cell)] {
+            let exact = f64::from(way) / f64::from(1 << unit) / d.to_num::<f64>();
+            let wrong = exact * 2e-5 + 1.0 + 1.0 / d.to_num::<f64>();
+            prop_assert!((f64::from(found) - exact).abs() <= wrong, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn whole_cells(o in -3.0..9.0f64, near in -4i32..4, m in 128u8..=255, unit in 0u8..14) {
+        let cell = i32::from(m) << (6 + unit);
+        let per = make::per_cell(m, 6 + unit, 0);
+        for o in [(o * f64::from(cell)) as i32, o as i32 * cell + near] {
+            let found = Fixed::cells_before(I16F16::from_bits(o), per, unit);
+            let exact = if o < 0 { 0 } else { (o / cell) as u32 };
+            prop_assert!(found == exact || exact >= 8 && found >= 8, "{found} {exact}");
+        }
     }
 }

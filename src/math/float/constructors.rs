@@ -195,9 +195,10 @@ macro_rules! constructors {
                 (x as f64 * f64_power_of_two(log2_step)) as $f
             }
 
-            /// The side of an octree of 2^`log2_side` steps, as `Arithmetic::spans` takes it.
-            pub(crate) const fn log2_side(log2_side: u8, log2_step: i8) -> i8 {
-                log2_side as i8 + log2_step
+            /// For `Arithmetic::cells_before`: one over a cell's side of `mantissa << shift` steps.
+            pub(crate) const fn per_cell(mantissa: u8, shift: u8, log2_step: i8) -> $f {
+                let side = ((mantissa as u32) << shift) as f64 * f64_power_of_two(log2_step);
+                (1.0 / side) as $f
             }
 
             const fn f64_power_of_two(n: i8) -> f64 {

@@ -106,6 +106,7 @@ macro_rules! float {
             type Coarse = ();
             type DirectionCone = FloatDirectionCone<$f>;
             type Aim = $f;
+            type Pace = $f;
             type Span = $f;
             type Rotation = [[$f; 3]; 3];
             type Scale = FloatScale<$f>;
@@ -113,6 +114,7 @@ macro_rules! float {
             const NAME: &'static str = stringify!($f);
             const REFINE: bool = false;
             const FAR: $f = 1e9;
+            const HORIZON: $f = 1e9;
             const EVERY_DIRECTION: FloatDirectionCone<$f> =
                 FloatDirectionCone { axis: [0.0; 3], least: -1.0 };
             const NO_LENGTH: $f = 0.0;
@@ -578,16 +580,40 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn spans(o: $f, d: $f, log2_side: i8) -> ($f, $f) {
-                let d = if d < $slow { $slow } else { d };
-                let side = Self::side(log2_side);
-                ((side - o) / d, side / d)
+            fn pace(d: $f) -> $f {
+                if d < $slow { $slow } else { d }
             }
 
             #[inline(always)]
-            fn span(t: $f, _: i8) -> $f {
+            fn takes(a: $f, pace: &$f) -> $f {
+                Self::ratio(a, *pace)
+            }
+
+            #[inline(always)]
+            fn spans(left: $f, cell: $f, pace: &$f, _: u8) -> ($f, $f) {
+                (left / *pace, cell / *pace)
+            }
+
+            #[inline(always)]
+            fn cells_before(o: $f, per: $f, _: u8) -> u32 {
+                // Saturating: below 0 there are none.
+                (o * per) as u32
+            }
+
+            #[inline(always)]
+            fn cells_long(cell: $f, n: u32) -> $f {
+                cell * n as $f
+            }
+
+            #[inline(always)]
+            fn span(t: $f, _: u8) -> $f {
                 // The rounding of the quotients behind the spans.
                 t + t * (4.0 * $eps)
+            }
+
+            #[inline(always)]
+            fn spans_of(s: $f, n: u32) -> $f {
+                s * n as $f
             }
 
             #[inline(always)]

@@ -154,9 +154,13 @@ fn leaves_hold_all_samples() {
 
 fn leaf_at(words: &[u32], count: usize, built: &Built, p: &[f64; 3]) -> Vec<u32> {
     let width = node::IdWidth::of(count).unwrap();
-    let mut side = (1u64 << built.cube.log2_side) as f64;
+    let grid = node::Grid::read(words[0]).unwrap();
+    let mut side = f64::from(grid.side());
     let mut min = built.cube.origin.map(f64::from);
-    let mut word = words[0];
+    let cell = [0, 1, 2].map(|i| ((p[i] - min[i]) / side) as usize);
+    min = [0, 1, 2].map(|i| min[i] + cell[i] as f64 * side);
+    let row = words[1 + cell[2] * usize::from(grid.cells[1]) + cell[1]];
+    let mut word = words[node::child(row, cell[0] as u32).expect("no cell where a shape is")];
     while !node::is_leaf(word) {
         side /= 2.0;
         let mut number = 0;

@@ -1,5 +1,6 @@
 //! Trees as words: in a `static`, out of bounds, and made by somebody hostile.
 
+use super::node::Grid;
 use super::*;
 
 static EXTENTS: [Extent; 64] = {
@@ -13,14 +14,14 @@ static EXTENTS: [Extent; 64] = {
     }
     all
 };
-static BUFFER: OctreeBuffer<400> = OctreeBuffer::build(&EXTENTS);
+static BUFFER: OctreeBuffer<900> = OctreeBuffer::build(&EXTENTS);
 static TREE: Octree<Fixed> = Octree::<Fixed>::of(&BUFFER, STEP);
 
 #[test]
 fn a_static_tree() {
     assert_eq!(BUFFER.shapes(), 64);
     assert!(BUFFER.built().levels >= 2);
-    let mut words = [0; 400];
+    let mut words = [0; 900];
     let mut scratch = [0; 1000];
     let built = build_into(&EXTENTS, &mut words, &mut scratch, Limits::DEFAULT).unwrap();
     assert_eq!(&words[..built.words], BUFFER.words());
@@ -47,9 +48,11 @@ fn errors() {
         build_into(extents, &mut vec![0; words], &mut vec![0; scratch], Limits::DEFAULT)
     };
     assert_eq!(build(&one, 3, 1000).unwrap_err(), BuildError::Words);
+    assert_eq!(build(&one, 1, 1000).unwrap_err(), BuildError::Words);
     assert_eq!(build(&one, 0, 1000).unwrap_err(), BuildError::Words);
-    assert_eq!(build(&one, 100, 39).unwrap_err(), BuildError::Scratch);
-    assert!(build(&one, 100, 40).is_ok());
+    let scratch = build(&one, 100, 1000).unwrap().scratch;
+    assert_eq!(build(&one, 100, scratch - 1).unwrap_err(), BuildError::Scratch);
+    assert!(build(&one, 100, scratch).is_ok());
     assert_eq!(build(&[], 0, 0).unwrap().words, 0);
     for (center, radius) in [([i32::MAX, 0, 0], 1), ([0; 3], -1), ([0, 1 << 27, 0], 1)] {
         let bad = [Extent::Sphere { center, radius }];
@@ -59,7 +62,7 @@ fn errors() {
     assert_eq!(build(&inverted, 10, 10).unwrap_err(), BuildError::Extent);
     let all = [Extent::Box { min: [-(1 << 27); 3], max: [1 << 27; 3] }];
     let built = build(&all, 10, 10).unwrap();
-    assert_eq!((built.words, built.cube.log2_side), (1, 29));
+    assert_eq!((built.words, built.cube.log2_side), (3, 29));
     std::assert_eq!(std::format!("{}", BuildError::Words), "too few words for the octree");
 }
 
@@ -74,20 +77,42 @@ fn hostile_words_are_refused() {
         word
     };
     let inner = |children, first| node::inner(children, first).unwrap();
-    assert_eq!(validate(&[leaf(&[0, 4])], 5), Ok(0));
-    assert_eq!(validate(&[inner(3, 1), leaf(&[0]), leaf(&[1])], 5), Ok(1));
-    assert_eq!(validate(&[leaf(&[5])], 5), Err(TreeError::Id));
-    assert_eq!(validate(&[leaf(&[1]), leaf(&[1])], 5), Err(TreeError::Length));
+    let grid = |cells| Grid::new(cells, 1 << 16).word();
+    // One cell.
+    let cell = |words: &[u32], shapes| {
+        let mut all = vec![grid([1; 3]), inner(1, 2)];
+        all.extend(words);
+        validate(&all, shapes)
+    };
+    assert_eq!(cell(&[leaf(&[0, 4])], 5), Ok(0));
+    assert_eq!(cell(&[inner(3, 3), leaf(&[0]), leaf(&[1])], 5), Ok(1));
+    assert_eq!(cell(&[leaf(&[5])], 5), Err(TreeError::Id));
+    assert_eq!(cell(&[leaf(&[1]), leaf(&[1])], 5), Err(TreeError::Length));
+    assert_eq!(cell(&[inner(1, 2)], 5), Err(TreeError::Order));
+    assert_eq!(cell(&[inner(0, 3)], 5), Err(TreeError::Childless));
+    assert_eq!(cell(&[inner(3, 3), leaf(&[1])], 5), Err(TreeError::Truncated));
+    assert_eq!(cell(&[node::leaf_of_run(3)], 5), Err(TreeError::Truncated));
+    assert_eq!(cell(&[node::leaf_of_run(2)], 5), Err(TreeError::Order));
+    let chain: Vec<u32> = (3..40).map(|i| inner(1, i)).collect();
+    assert_eq!(cell(&chain, 5), Err(TreeError::TooDeep));
+    assert_eq!(cell(&[0; 4], 1 << 23), Err(TreeError::TooManyShapes));
+    // The grid itself.
+    let (one, none) = (leaf(&[1]), inner(0, 5));
     assert_eq!(validate(&[], 5), Err(TreeError::Length));
     assert_eq!(validate(&[], 0), Ok(0));
-    assert_eq!(validate(&[inner(1, 0)], 5), Err(TreeError::Order));
-    assert_eq!(validate(&[inner(0, 1)], 5), Err(TreeError::Childless));
-    assert_eq!(validate(&[inner(3, 1), leaf(&[1])], 5), Err(TreeError::Truncated));
-    assert_eq!(validate(&[node::leaf_of_run(1)], 5), Err(TreeError::Truncated));
-    assert_eq!(validate(&[node::leaf_of_run(0)], 5), Err(TreeError::Order));
-    let chain: Vec<u32> = (1..40).map(|i| inner(1, i)).collect();
-    assert_eq!(validate(&chain, 5), Err(TreeError::TooDeep));
-    assert_eq!(validate(&[0; 4], 1 << 23), Err(TreeError::TooManyShapes));
+    assert_eq!(validate(&[grid([2, 2, 2])], 5), Err(TreeError::Truncated));
+    assert_eq!(validate(&[grid([2, 2, 2]), none, none, none, none], 5), Ok(1));
+    let rows = [grid([5, 2, 2]), inner(3, 4), one, one, one];
+    assert_eq!(validate(&rows, 5), Err(TreeError::Order));
+    let rows =
+        [grid([5, 2, 2]), inner(17, 5), inner(0, 7), inner(2, 7), inner(0, 8), one, one, one];
+    assert_eq!(validate(&rows, 5), Ok(3));
+    // A cell that isn't in the grid, a row that is a leaf, and words that are no grid.
+    assert_eq!(validate(&[grid([5, 1, 1]), inner(32, 2), one], 5), Err(TreeError::Grid));
+    assert_eq!(validate(&[grid([1; 3]), one], 5), Err(TreeError::Grid));
+    for bit in [16, 22, 31] {
+        assert_eq!(validate(&[grid([1; 3]) ^ 1 << bit, inner(1, 2), one], 5), Err(TreeError::Grid));
+    }
 }
 
 /// Words that are nearly a tree.
@@ -98,8 +123,19 @@ fn nearly_a_tree() -> impl Strategy<Value = (Vec<u32>, usize)> {
             return ((0..room).map(|_| random.next() as u32).collect(), count);
         }
         // grown at random in the right order, then perhaps damaged
-        let mut words = vec![0];
-        grow(&mut words, 0, 0, count, &mut random);
+        let cells = [0; 3].map(|_| 1 + random.below(8) as u8);
+        let grid = Grid::new(cells, 1 << (10 + random.below(18)));
+        let mut words = vec![0; 1 + grid.rows()];
+        words[0] = grid.word();
+        for row in 1..=grid.rows() {
+            let children = random.below(1 << cells[0]) as u32;
+            let first = words.len();
+            words[row] = node::inner(children, first).unwrap();
+            words.resize(first + children.count_ones() as usize, 0);
+            for i in first..words.len() {
+                grow(&mut words, i, 3, count, &mut random);
+            }
+        }
         for _ in 1..damage {
             let i = random.below(words.len() as u64) as usize;
             words[i] ^= 1 << random.below(32);

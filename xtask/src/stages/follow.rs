@@ -101,7 +101,7 @@ struct Code {
 impl Code {
     fn read(image: &Path) -> Result<Self, String> {
         let segments = elf::segments(image)?;
-        let segments = segments.into_iter().map(|(start, bytes)| (start as u32, bytes)).collect();
+        let segments = segments.into_iter().map(|s| (s.place as u32, s.data)).collect();
         let functions = elf::functions(image)?.into_iter().map(|start| start as u32).collect();
         Ok(Self { riscv: elf::is_riscv(image)?, segments, functions })
     }

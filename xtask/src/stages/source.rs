@@ -22,11 +22,11 @@ const PATIENCE: Duration = Duration::from_secs(1800);
 /// How far the count may be from the firmware's own, which counts the reading of its counter, too.
 const TOLERANCE: f64 = 0.02;
 
-/// The image of a target.
-pub(crate) fn build(target: Target) -> Result<PathBuf, String> {
+/// The image of a target, with what these jobs draw.
+pub(crate) fn build(target: Target, jobs: &[Job]) -> Result<PathBuf, String> {
     match target {
         Target::Qemu(machine) => machine.build(),
-        Target::Rp2040 => pico::image(),
+        Target::Rp2040 => pico::image(jobs),
     }
 }
 

@@ -29,7 +29,7 @@ mod showcase;
 #[path = "spheres64.rs"]
 mod spheres64;
 
-use whitted::frame::{Output, Tone};
+use whitted::frame::{Output, Sampling, Tone};
 
 use whitted::scene::Scene;
 
@@ -44,11 +44,19 @@ const LIMIT_CUTOFF: <A as whitted::math::Arithmetic>::Weight = 4.5 / 256.0;
 /// The old programs' colours are display values.
 const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
 
-/// The limit scene with the code for every sampling.
+/// The limit scene with the code for every sampling but the sparse.
 static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(limit::PARTS);
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
     view.view_parts(&SAMPLED, &limit::CAMERA, 4, LINEAR)
+}
+
+/// The limit scene with the code for sparse sampling.
+static SPARSE: Scene<A, { limit::PARTS.uses() | Sampling::SPARSE.uses() }> =
+    Scene::tailored(limit::PARTS);
+
+pub(super) fn sparse<V: View<A>>(view: V) -> V::Output {
+    view.view_parts(&SPARSE, &limit::CAMERA, 4, LINEAR)
 }
 
 pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {

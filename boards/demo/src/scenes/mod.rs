@@ -60,18 +60,21 @@ pub trait Shots: Arithmetic {
     /// Does something with the scene of a name.
     fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output;
 
-    /// Does something with the limit scene, in a type that all samplings are compiled for.
+    /// Does something with the limit scene, in a type that all samplings but the sparse are compiled
+    /// for.
     fn sampled<V: View<Self>>(view: V) -> V::Output;
+
+    /// The same, in a type that sparse sampling alone is compiled for.
+    fn sparse<V: View<Self>>(view: V) -> V::Output;
 
     /// Does something with two mirrors that face each other, eight generations deep.
     fn mirrors<V: View<Self>>(view: V) -> V::Output;
 }
 
-/// What pictures of jobs may be sampled by.
+/// What pictures of jobs may be sampled by, but for the sparse.
 const SAMPLINGS: u64 = Sampling::Corners.uses()
     | Sampling::Grid { side: 1 }.uses()
-    | Sampling::ADAPTIVE.uses()
-    | Sampling::SPARSE.uses();
+    | Sampling::ADAPTIVE.uses();
 
 impl Shots for Fixed {
     #[inline(always)]
@@ -81,6 +84,10 @@ impl Shots for Fixed {
 
     fn sampled<V: View<Self>>(view: V) -> V::Output {
         fixed::sampled(view)
+    }
+
+    fn sparse<V: View<Self>>(view: V) -> V::Output {
+        fixed::sparse(view)
     }
 
     fn mirrors<V: View<Self>>(view: V) -> V::Output {
@@ -96,6 +103,10 @@ impl Shots for f32 {
 
     fn sampled<V: View<Self>>(view: V) -> V::Output {
         float::sampled(view)
+    }
+
+    fn sparse<V: View<Self>>(view: V) -> V::Output {
+        float::sparse(view)
     }
 
     fn mirrors<V: View<Self>>(view: V) -> V::Output {
