@@ -1,13 +1,16 @@
 //! What a scene needs of a chip: flash, memory and, roughly, time.
 
+use whitted::frame::{Output, Renderer, Rgb888};
+use whitted::math::{Arithmetic, Rgb};
 use whitted::scene::{Group, Parts, Pattern, Texels};
-use whitted::tally::Counts;
-use whitted::trace::Work;
+use whitted::shape::Ray;
+use whitted::tally::{Counts, RayKind, Tally};
+use whitted::trace::{Terms, Work};
 
 use crate::bake::{Baked, Construct};
 use crate::document::{Indirect, Size};
-use crate::error::Flaw;
-use crate::render::{Sampling, Settings, render};
+use crate::error::{Flaw, Problem};
+use crate::render::{MAX_DEPTH, Sampling, Settings, render};
 
 /// The picture whose rays are counted to tell those of larger ones.
 const TRIAL: u32 = 64;
@@ -96,6 +99,36 @@ pub struct Pixel {
     pub tests: f64,
     /// Surfaces for which the irradiance cache is asked, at most.
     pub lookups: f64,
+    /// How deep trees of rays get in the small picture; the camera's ray has depth 1.
+    pub deepest: u8,
+}
+
+/// The depth of the deepest tree of rays.
+struct Deepest(u8);
+
+impl Tally for Deepest {
+    fn ray<A: Arithmetic>(&mut self, kind: RayKind, depth: u8, _: &Ray<A>, _: &Rgb<A::Weight>) {
+        if matches!(kind, RayKind::Primary | RayKind::Reflection | RayKind::Transmission) {
+            self.0 = self.0.max(depth);
+        }
+    }
+}
+
+fn deepest<A: Construct>(baked: &Baked<A>, settings: &Settings) -> Result<u8, Flaw> {
+    let camera = baked.camera(settings.size)?;
+    let core = settings.for_core(Terms::ALL);
+    let deepest = baked.with_scene(|scene| {
+        let mut work = Work::<A, MAX_DEPTH>::new();
+        let tally = Deepest(1);
+        Renderer::with_tally(scene, &camera, core, &mut work, &mut [], tally).map(|mut renderer| {
+            let mut line = vec![Rgb888::default(); usize::from(core.width)];
+            for y in 0..core.height {
+                renderer.line(y, &Output::SRGB, &mut line);
+            }
+            renderer.tally().0
+        })
+    })?;
+    deepest.map_err(|error| Problem::Settings(error.to_string()).anywhere())
 }
 
 /// Counts on a small picture, one ray a pixel, what a pixel takes.
@@ -128,6 +161,7 @@ pub fn pixel<A: Construct>(baked: &Baked<A>, size: Size, depth: u8) -> Result<Pi
             Some(Indirect::Cache(_)) => a_pixel(counts.rays() - shadow),
             _ => 0.0,
         },
+        deepest: deepest(baked, &settings)?,
     })
 }
 

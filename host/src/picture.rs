@@ -107,7 +107,7 @@ impl Picture {
 }
 
 /// Writes a file beside `path` and renames it: a reader finds the old file, the new one or
-/// none, never half of one.
+/// none, never half of one. A link stays a link, and what is no file (a pipe, a device) is written to.
 ///
 /// # Errors
 /// What the file system has, or `write`.
@@ -115,6 +115,11 @@ pub fn save(
     path: &Path,
     write: impl FnOnce(&mut std::fs::File) -> io::Result<()>,
 ) -> io::Result<()> {
+    let known = path.metadata();
+    if known.as_ref().is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return write(&mut std::fs::File::options().write(true).open(path)?);
+    }
+    let path = &if known.is_ok() { path.canonicalize()? } else { path.to_owned() };
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -146,6 +151,31 @@ mod tests {
             "\x1b[38;2;1;2;3;48;2;7;8;9m▀\x1b[38;2;4;5;6;48;2;10;11;12m▀\x1b[0m\n"
         );
         assert_eq!(picture.to_terminal(1, 1), "\x1b[38;2;5;6;7m▀\x1b[0m\n");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_pipes_are_written_to_and_not_replaced() {
+        use std::io::Read;
+        let place = tempfile::tempdir().unwrap();
+        let at = |name: &str| place.path().join(name);
+        std::fs::write(at("file"), "old").unwrap();
+        std::os::unix::fs::symlink("file", at("link")).unwrap();
+        save(&at("link"), |file| file.write_all(b"new")).unwrap();
+        assert!(at("link").symlink_metadata().unwrap().is_symlink());
+        assert_eq!(std::fs::read(at("file")).unwrap(), b"new");
+
+        let made = std::process::Command::new("mkfifo").arg(at("pipe")).status();
+        if !made.is_ok_and(|status| status.success()) {
+            return eprintln!("skipped: there is no mkfifo");
+        }
+        let pipe = at("pipe");
+        let reader = std::thread::spawn(move || {
+            let mut bytes = Vec::new();
+            std::fs::File::open(pipe).unwrap().read_to_end(&mut bytes).map(|_| bytes).unwrap()
+        });
+        save(&at("pipe"), |file| file.write_all(b"through")).unwrap();
+        assert_eq!(reader.join().unwrap(), b"through");
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    fn for_core(&self, terms: Terms) -> whitted::frame::Settings {
+    pub(crate) fn for_core(&self, terms: Terms) -> whitted::frame::Settings {
         // Larger sizes become one that the core refuses.
         let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
         whitted::frame::Settings {

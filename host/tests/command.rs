@@ -161,6 +161,28 @@ fn check_says_what_is_in_it() {
     assert!(!said.contains("doesn't fit"), "{said}");
 }
 
+/// A ball sends no ray on; a mirror beside it sends one, and a far light's rays are parallel.
+#[test]
+fn check_says_how_deep_trees_of_rays_get_and_what_became_of_lights() {
+    let place = tempfile::tempdir().unwrap();
+    let matt = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\n\
+                [[light]]\nposition = [0, 9e6, 0]\n[[light]]\nposition = [0, 9, 0]\n\
+                [[material]]\nname = \"a\"\n[[sphere]]\nmaterial = \"a\"\ncenter = [0, 0, 0]\nradius = 1\n";
+    let mirror = "[[material]]\nname = \"b\"\nreflection = 0.5\n\
+                  [[sphere]]\nmaterial = \"b\"\ncenter = [2.5, 0, 0]\nradius = 1\n";
+    let check = |text: &str| {
+        std::fs::write(place.path().join("x.toml"), text).unwrap();
+        said(&whitted(place.path(), &["check", "x.toml"]))
+    };
+    let alone = check(matt);
+    assert!(alone.contains("  trees    up to 1 deep in a small picture: depth = 1 would do\n"));
+    assert!(alone.contains(", 1 far light made directional; no octree\n"), "{alone}");
+    let both = check(&format!("{matt}{mirror}"));
+    assert!(both.contains("  trees    up to 2 deep in a small picture: depth = 2 would do\n"));
+    let mirrors = check(&format!("{matt}{mirror}[render]\ndepth = 2\n"));
+    assert!(mirrors.contains("up to 2 deep in a small picture: as deep as they may\n"));
+}
+
 #[test]
 fn the_terms_of_a_pixel_sum_to_it() {
     let place = tempfile::tempdir().unwrap();
@@ -212,10 +234,39 @@ fn wrong_options() {
 fn an_output_that_cannot_be_written() {
     let place = tempfile::tempdir().unwrap();
     let scene = scene("limit");
-    let arguments = ["render", &scene, "--size", "8x8", "-o", "nowhere/x.png"];
+    std::fs::create_dir(place.path().join("folder.png")).unwrap();
+    std::fs::create_dir(place.path().join("folder.bin")).unwrap();
+    for (command, out, says) in [
+        (
+            "render",
+            "nowhere/x.png",
+            "nowhere/x.png: can't be written: there is no directory nowhere\n",
+        ),
+        (
+            "render",
+            "folder.png",
+            "folder.png: can't be written: it is a directory; give a file's name\n",
+        ),
+        (
+            "bake",
+            "nowhere/x.bin",
+            "nowhere/x.bin: can't be written: there is no directory nowhere\n",
+        ),
+        (
+            "bake",
+            "folder.bin",
+            "folder.bin: can't be written: it is a directory; give a file's name\n",
+        ),
+    ] {
+        let output = whitted(place.path(), &[command, &scene, "--size", "8x8", "-o", out]);
+        assert_eq!(errors(&output), format!("whitted: {says}"));
+        assert_eq!(output.status.code(), Some(2));
+    }
+    let arguments = ["render", &scene, "--size", "8x8", "--stats", "nowhere/x.json"];
     let output = whitted(place.path(), &arguments);
-    assert!(errors(&output).contains("nowhere/x.png: can't be written: "), "{}", errors(&output));
-    assert_eq!(output.status.code(), Some(1));
+    assert!(errors(&output).contains("x.json: can't be written: there is no directory nowhere"));
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(files(place.path()), ["folder.bin", "folder.png"]);
 }
 
 #[cfg(all(unix, not(target_os = "macos")))]

@@ -127,6 +127,12 @@ fn faces_of_all_kinds() {
     let warnings = warned(&read);
     assert!(warnings.contains("11: 1 faces without area skipped"), "{warnings}");
     assert!(warnings.contains("12: points and lines aren't"), "{warnings}");
+
+    let text = "v 0 0 0\nv 2 0 0\nv 2 2 0\nvn 1 0 1\nf 1//1 2//1 3\n";
+    fs::write(place.path().join("a.obj"), text).unwrap();
+    let read = document(place.path(), "a.obj");
+    assert!(matches!(read.shapes[0].body, Body::Triangle { .. }));
+    assert!(warned(&read).contains("5: 1 faces have normals at some corners alone"));
 }
 
 #[test]
@@ -172,6 +178,21 @@ fn materials_by_their_illumination() {
     assert_eq!(glass.shadow, ShadowThrough::Filtered);
     assert!(warnings.contains("1: my own.mtl:9: maps other than map_Kd (map_"), "{warnings}");
     assert!(warnings.contains("my own.mtl:1: material \"a\": illum 5 and 7 weigh"), "{warnings}");
+    let (dark, _) = material(&format!("{base}illum 4\nd 0.25\nTf 0.9 0.8 0.4\n"));
+    assert_eq!((dark.reflection, dark.diffuse), ([0.2, 0.3, 0.4], [0.125, 0.1, 0.075]));
+    assert!((dark.transmission[2] - 0.3).abs() < 1e-12 && dark.index_behind == 1.5);
+    let (clear, warnings) = material(&format!("{base}illum 6\n"));
+    assert_eq!((clear.transmission, clear.reflection), ([1.0; 3], [0.2, 0.3, 0.4]));
+    assert!(!warnings.contains("material \"a\""), "{warnings}");
+    let (mirror, warnings) = material(&format!("{base}illum 5\n"));
+    assert_eq!((mirror.reflection, mirror.transmission), ([0.2, 0.3, 0.4], none));
+    assert!(warnings.contains("illum 5 and 7 weigh mirrors by angle"), "{warnings}");
+    let (flat, warnings) = material(&format!("{base}Ka 0.1 0.2 0.3\nillum 0\n"));
+    assert_eq!((flat.ambient, flat.specular, flat.reflection), ([0.1, 0.2, 0.3], none, none));
+    assert!(warnings.contains("illum 0 is lit here as illum 1 is"), "{warnings}");
+    let (thin, warnings) = material(&format!("{base}d -halo 0.5\n"));
+    assert_eq!(thin.transmission, [0.5; 3]);
+    assert!(warnings.contains("d -halo thins towards the middle"), "{warnings}");
     let (veil, _) = material(&format!("{base}Tr 0.75\n"));
     assert_eq!((veil.transmission, veil.diffuse), ([0.75; 3], [0.125, 0.1, 0.075]));
 }

@@ -75,6 +75,22 @@ fn published_counts() {
     }
 }
 
+/// Rings says one of seven materials before each of its 840 objects and its floor.
+#[test]
+fn materials_said_again_are_one() {
+    let Some(place) = common::spd() else { return };
+    let document = read(&place.join("rings.nff")).unwrap();
+    assert_eq!(document.materials.len(), 7);
+    let text = std::fs::read_to_string(place.join("rings.nff")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let said = |line: &&&str| line.starts_with("f ");
+    assert_eq!(lines.iter().filter(said).count(), 841);
+    for shape in document.shapes.iter().step_by(100) {
+        let last = lines[..shape.line].iter().rfind(said);
+        assert_eq!(last, lines.get(document.materials[shape.material].line - 1));
+    }
+}
+
 #[test]
 fn small_scenes_in_every_arithmetic() {
     let Some(place) = common::spd() else { return };

@@ -17,6 +17,8 @@ fn the_same_bits_and_counts() {
         Sampling::Corners,
         Sampling::Grid { side: 2 },
         Sampling::Jittered { side: 2, seed: 7 },
+        Sampling::ADAPTIVE,
+        Sampling::SPARSE,
     ];
     for sampling in samplings {
         let mut one = None;

@@ -61,11 +61,19 @@ impl<A: Construct> Baked<A> {
     /// # Errors
     /// What of it the arithmetic can't hold, with its line.
     pub fn with(document: &Document, thrift: Thrift) -> Result<Self, Flaw> {
-        let placement = if A::NARROW { Placement::filling(document) } else { Placement::IDENTITY };
-        if A::NARROW {
-            precision::check(document, &placement)?;
-        }
-        let mut placed = placement.place(document);
+        let (placement, mut placed) = if A::NARROW {
+            let placement = Placement::filling(document);
+            let placed = placement.place(document);
+            precision::check(document, &placement, &placed)?;
+            (placement, placed)
+        } else {
+            let placement = Placement::near(document);
+            let placed = match placement {
+                Placement::IDENTITY => document.clone(),
+                _ => placement.place(document),
+            };
+            (placement, placed)
+        };
         let bodies = placed.embody();
         let background = match placed.background {
             document::Background::Color(color) => A::new_uniform(color),

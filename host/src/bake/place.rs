@@ -1,6 +1,7 @@
 //! Placing a scene into an arithmetic's range.
 //!
-//! Floating point takes a scene as it is. Fixed point has one step everywhere, so a scene is
+//! Floating point takes a scene as it is, unless that lies far from the origin or is far from the size
+//! that coefficients are made for ([`Placement::near`]). Fixed point has one step everywhere, so a scene is
 //! moved to the origin and scaled by a power of two until it fills the range; lengths that the
 //! scene states (cells of patterns, positions of lights and camera) follow, and the intensity of a
 //! light with falloff grows with the square.
@@ -12,6 +13,8 @@
 //! - A light so far that its direction changes by less than [`PARALLEL`] over the whole scene is
 //!   made directional, which it is to the eye; anything nearer keeps its place. Moving a light
 //!   nearer would change directions by as much as it gains range, so that is never done.
+
+use std::fmt;
 
 use whitted::scene::{Mapping, TextureSpec};
 
@@ -28,6 +31,13 @@ const REACH: f64 = 1000.0;
 const SHAPES_REACH: f64 = 128.0;
 const WITH_PLANES_REACH: f64 = 16.0;
 
+/// How many times as far from the origin as it is wide a scene may lie for single precision: a
+/// position is known to 2⁻¹⁸ of the width.
+const FAR: f64 = 64.0;
+
+/// Two to this is how much larger or smaller floating point may want a scene and take it as it is.
+const ODD: i32 = 10;
+
 /// The sine of the angle under which a far light may see the scene's radius and be called
 /// directional: 2⁻¹², a sixteenth of a grey level at the steepest.
 const PARALLEL: f64 = 1.0 / 4096.0;
@@ -43,6 +53,16 @@ pub struct Placement {
     pub center: Point,
     /// The scale is 2 to this.
     pub log2_scale: i32,
+}
+
+impl fmt::Display for Placement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if *self == Self::IDENTITY {
+            return f.write_str("as it is");
+        }
+        let [x, y, z] = self.center;
+        write!(f, "scaled by 2^{} around {x} {y} {z}", self.log2_scale)
+    }
 }
 
 impl Placement {
@@ -72,6 +92,19 @@ impl Placement {
         Self { center: center.map(|x| (x * scale).round() / scale), log2_scale }
     }
 
+    /// The placement for floating point: the scene as it is, unless single precision would lose it, so
+    /// far away, or so large or small that absorption leaves its range.
+    pub fn near(document: &Document) -> Self {
+        let Some(bounds) = document.bounds() else { return Self::IDENTITY };
+        let filling = Self::filling(document);
+        let away = bounds.center().into_iter().map(f64::abs).fold(0.0, f64::max);
+        if away > FAR * bounds.side() || filling.log2_scale.abs() > ODD {
+            filling
+        } else {
+            Self::IDENTITY
+        }
+    }
+
     /// The scale.
     pub fn scale(&self) -> f64 {
         2f64.powi(self.log2_scale)
@@ -93,13 +126,11 @@ impl Placement {
         Camera { eye: self.point(camera.eye), look_at: self.point(camera.look_at), ..*camera }
     }
 
-    /// The whole scene.
+    /// The whole scene. Groups fill the ranges of their own spaces, far lights become directional, even
+    /// where the scene itself stays as it is.
     #[must_use]
     pub fn place(&self, document: &Document) -> Document {
         let mut placed = document.clone();
-        if *self == Self::IDENTITY {
-            return placed;
-        }
         placed.camera = self.camera(&document.camera);
         placed.materials.iter_mut().for_each(|material| self.material(material));
         // Ways are measured in the scene, within groups too.
@@ -332,6 +363,78 @@ mod tests {
         assert_eq!(placement.log2_scale, 2);
         let position = placement.place(&document).lights[0].position();
         assert_eq!(position, Some([0.0, 800.0, 0.0]));
+    }
+
+    /// Wherever a scene lies and whatever its unit, it looks the same in all arithmetics.
+    #[test]
+    fn far_and_tiny_scenes_are_moved_and_scaled_for_floating_point_too() {
+        use crate::bake::{Baked, Construct};
+        use crate::document::Size;
+        use crate::render::{Sampling, Settings, render};
+        fn picture<A: Construct>(document: &Document) -> Vec<u8> {
+            let settings = Settings {
+                size: Size { width: 24, height: 16 },
+                depth: 5,
+                sampling: Sampling::Center,
+                indirect: None,
+                show: None,
+                threads: std::num::NonZeroUsize::MIN,
+            };
+            let made =
+                Baked::<A>::new(document).and_then(|baked| render(&baked, &settings, |_| {}));
+            let made = made.unwrap_or_else(|flaw| panic!("{}: {}", A::NAME, flaw.problem));
+            made.picture.pixels().as_flattened().to_vec()
+        }
+        let scene = |unit: f64, away: f64| {
+            let at = |p: [f64; 3]| p.map(|x| (x * unit + away).to_string()).join(", ");
+            let text = format!(
+                "ambient = 0.3\n[camera]\neye = [{}]\nlook_at = [{}]\n\
+                 [[light]]\nposition = [{}]\nintensity = {}\n\
+                 [[material]]\nname = \"a\"\ndiffuse = [0.8, 0.3, 0.2]\n\
+                 [[material]]\nname = \"g\"\ntransmission = 0.9\nindex = 1.4\nabsorption = {}\n\
+                 [[sphere]]\nmaterial = \"a\"\ncenter = [{}]\nradius = {unit}\n\
+                 [[sphere]]\nmaterial = \"g\"\ncenter = [{}]\nradius = {unit}\n",
+                at([0.0, 2.0, -8.0]),
+                at([0.0, 0.5, 0.0]),
+                at([5.0, 9.0, -6.0]),
+                100.0 * unit * unit,
+                0.5 / unit,
+                at([0.0, 1.0, 0.0]),
+                at([2.0, 1.0, -1.0]),
+            );
+            parse(Format::Toml, text.as_bytes()).unwrap_or_else(|flaw| panic!("{}", flaw.problem))
+        };
+        let plain = scene(1.0, 0.0);
+        assert_eq!(Placement::near(&plain), Placement::IDENTITY);
+        let wanted = picture::<f64>(&plain);
+        for (unit, away) in [(0.01, 1e5), (1e-3, 0.0), (1e-6, 0.0), (1e-3, 1e6)] {
+            let document = scene(unit, away);
+            assert_ne!(Placement::near(&document), Placement::IDENTITY, "{unit} {away}");
+            for picture in [picture::<f32>(&document), picture::<f64>(&document)] {
+                let off = picture.iter().zip(&wanted).filter(|(a, b)| a.abs_diff(**b) > 2).count();
+                assert!(off <= 6, "{unit} {away}: {off} channels of {}", wanted.len());
+            }
+        }
+    }
+
+    /// A scene that needs neither move nor scale has lights and groups all the same.
+    #[test]
+    fn what_fits_as_it_is_has_its_lights_and_groups_placed() {
+        let text = "[camera]\neye = [0, 0, -300]\nlook_at = [0, 0, 0]\n\
+                    [[light]]\nposition = [0, 9e6, 0]\nfalloff = \"none\"\n\
+                    [[material]]\nname = \"a\"\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 100\n\
+                    [[group]]\nname = \"g\"\n[[group.sphere]]\ncenter = [5e4, 0, 0]\nradius = 8e3\n\
+                    [[instance]]\ngroup = \"g\"\nscale = 1e-3\n";
+        let document = parse(Format::Toml, text.as_bytes()).unwrap_or_else(|f| panic!("{f:?}"));
+        let placement = Placement::filling(&document);
+        assert_eq!(placement, Placement::IDENTITY);
+        let placed = placement.place(&document);
+        assert_eq!(placed.shapes, document.shapes);
+        assert!(matches!(placed.lights[0].kind, LightKind::Directional { .. }));
+        let Body::Sphere { radius, .. } = placed.groups[0].shapes[0].body else { panic!() };
+        assert!((64.0..=128.0).contains(&radius), "{radius}");
+        crate::bake::Baked::<whitted::math::Fixed>::new(&document)
+            .unwrap_or_else(|flaw| panic!("{}", flaw.problem));
     }
 
     #[test]

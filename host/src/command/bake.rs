@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use whitted::math::Fixed;
-use whitted_host::bake::{Baked, Construct, Thrift, parts_of};
+use whitted_host::bake::{Baked, Construct, Placement, Thrift, parts_of};
 use whitted_host::document::{Document, Size};
 use whitted_host::error::Flaw;
 use whitted_host::need;
 use whitted_host::picture::save;
 use whitted_host::read;
 
-use super::{Failure, print, warn};
+use super::{Failure, print, room_for, warn};
 
 #[derive(clap::Args)]
 pub(super) struct Options {
-    /// The scene
+    /// The scene: .toml, .nff, .obj, .gltf or .glb
     scene: PathBuf,
     /// Where it goes: .bin for a blob that is read in place, .rs for Rust source [default: the
     /// scene's name with .bin, here]
@@ -55,6 +55,7 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
             return Err(Failure::Input(words));
         }
     };
+    room_for(&out)?;
     let file = options.scene.file_name().unwrap_or_default().to_string_lossy();
     let (bytes, said) = match options.arith {
         BakedArith::Fixed => bake::<Fixed>(&document, &file, size, source),
@@ -101,5 +102,8 @@ fn bake<A: Construct>(
     };
     let each = all as f64 / baked.document().shapes.len().max(1) as f64;
     let _ = writeln!(said, "{all:>9} bytes in all, {each:.1} a shape");
+    if baked.placement != Placement::IDENTITY {
+        let _ = writeln!(said, "{}, for the range of {}", baked.placement, A::NAME);
+    }
     Ok((bytes, said))
 }

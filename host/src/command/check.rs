@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use whitted::math::Fixed;
-use whitted_host::bake::{Baked, Construct, Placement, Thrift, parts_of};
+use whitted_host::bake::{Baked, Construct, Thrift, parts_of};
 use whitted_host::document::{Body, Document, Material, Size};
 use whitted_host::error::Flaw;
 use whitted_host::need::{self, BOARDS, PROGRAM, Pixel, RESERVE};
@@ -148,11 +148,11 @@ fn fits<A: Construct>(
             Ok(None)
         }
         Ok(baked) => {
-            let placed = match baked.placement {
-                Placement::IDENTITY => "as it is".to_string(),
-                Placement { center, log2_scale } => {
-                    let center = center.map(|x| x.to_string()).join(" ");
-                    format!("scaled by 2^{log2_scale} around {center}")
+            let far = baked.document().lights.iter().zip(&document.lights);
+            let placed = match far.filter(|(here, there)| here.name() != there.name()).count() {
+                0 => baked.placement.to_string(),
+                far => {
+                    format!("{}, {} made directional", baked.placement, plural(far, "far light"))
                 }
             };
             let tree = match baked.tree() {
@@ -166,7 +166,7 @@ fn fits<A: Construct>(
             let memory = need::memory::<A>(depth);
             line("  memory", format_args!("{memory} bytes to trace {depth} deep, and rows"))?;
             let pixel = need::pixel(&baked, size, depth).map_err(|flaw| flaw.of(file))?;
-            let Pixel { rays, shadow, nodes, tests, lookups } = pixel;
+            let Pixel { rays, shadow, nodes, tests, lookups, deepest } = pixel;
             let asked = match lookups {
                 0.0 => String::new(),
                 n => format!(", {n:.2} times asking the irradiance cache at most"),
@@ -178,6 +178,11 @@ fn fits<A: Construct>(
                 "  rays",
                 format_args!("{rays}; each tests {tests:.1} shapes in {nodes:.1} nodes"),
             )?;
+            let enough = match deepest < depth {
+                true => format!("depth = {deepest} would do"),
+                false => "as deep as they may".to_string(),
+            };
+            line("  trees", format_args!("up to {deepest} deep in a small picture: {enough}"))?;
             Ok(Some(Need { arithmetic: A::NAME, flash, memory, pixel }))
         }
     }

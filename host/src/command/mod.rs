@@ -10,7 +10,7 @@ mod view;
 
 use std::fmt;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -192,6 +192,21 @@ pub(crate) fn main() -> ExitCode {
     }
 }
 
+/// Whether a file can be where it is to be written, which is asked before anything takes time.
+fn room_for(out: &Path) -> Result<(), Failure> {
+    let refused =
+        |why: String| Err(Failure::Input(format!("{}: can't be written: {why}", out.display())));
+    if out.is_dir() {
+        return refused("it is a directory; give a file's name".into());
+    }
+    match out.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+            refused(format!("there is no directory {}", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Prints to stdout; `println!` would panic where nobody reads.
 fn print(text: fmt::Arguments<'_>) -> Result<(), Failure> {
     use io::Write;
@@ -199,7 +214,7 @@ fn print(text: fmt::Arguments<'_>) -> Result<(), Failure> {
 }
 
 /// Says what the reader noticed, on stderr.
-fn warn(file: &std::path::Path, document: &whitted_host::document::Document) {
+fn warn(file: &Path, document: &whitted_host::document::Document) {
     const MOST: usize = 5;
     for warning in document.warnings.iter().take(MOST) {
         // Line 0 is the whole file.

@@ -16,7 +16,7 @@ use whitted_host::render::{Progress, Rendered, Sampling, Settings, render, rende
 use whitted_host::sampling;
 use whitted_host::stats::{Seconds, Stats};
 
-use super::{Arith, Failure, ShowName, With, print, progress, warn};
+use super::{Arith, Failure, ShowName, With, print, progress, room_for, warn};
 
 /// How large a picture is if neither the command nor the scene says.
 pub(super) const SIZE: Size = Size { width: 320, height: 240 };
@@ -71,6 +71,8 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
     }
     let name = || Path::new(options.scene.file_stem().unwrap_or_default()).with_extension("png");
     let out = options.out.clone().unwrap_or_else(name);
+    room_for(&out)?;
+    options.stats.as_deref().map_or(Ok(()), room_for)?;
     paint(&document, &options.scene, options, &out, load, quiet)
 }
 

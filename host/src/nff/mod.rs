@@ -7,6 +7,8 @@
 mod patch;
 mod token;
 
+use std::collections::HashMap;
+
 use crate::document::{
     Background, Body, Camera, Document, FARTHEST, Falloff, Light, LightKind, Material, Point, Rgb,
     Rules, ShadowThrough, Shape, Size, Span, Warning,
@@ -49,6 +51,10 @@ struct Reader<'t> {
     background: Option<(Rgb, usize)>,
     lights: Vec<(Point, Option<Rgb>, usize)>,
     materials: Vec<Material>,
+    /// Which of them has these numbers: programs say the same again before each object.
+    known: HashMap<[u64; 8], usize>,
+    /// The material of what follows.
+    current: Option<usize>,
     shapes: Vec<Shape>,
     warnings: Vec<Warning>,
 }
@@ -61,6 +67,8 @@ impl Default for Reader<'_> {
             background: None,
             lights: Vec::new(),
             materials: Vec::new(),
+            known: HashMap::new(),
+            current: None,
             shapes: Vec::new(),
             warnings: Vec::new(),
         }
@@ -135,6 +143,14 @@ impl Reader<'_> {
                 Problem::range("ior", index, "0.25 to 4 where T is not 0").at(tokens.line())
             );
         }
+        let [r, g, b] = color;
+        let numbers = [r, g, b, diffuse, specular, shininess, transmission, index];
+        let next = self.materials.len();
+        let number = *self.known.entry(numbers.map(f64::to_bits)).or_insert(next);
+        self.current = Some(number);
+        if number < next {
+            return Ok(());
+        }
         self.materials.push(Material {
             ambient: [0.0; 3],
             diffuse: color.map(|c| c * diffuse),
@@ -180,7 +196,7 @@ impl Reader<'_> {
 
     fn current(&self, line: usize) -> Result<usize, Flaw> {
         let what = "a material (f r g b Kd Ks Shine T ior) before the first shape".to_string();
-        self.materials.len().checked_sub(1).ok_or_else(|| Problem::Missing { what }.at(line))
+        self.current.ok_or_else(|| Problem::Missing { what }.at(line))
     }
 
     fn warn(&mut self, line: usize, text: String) {

@@ -282,6 +282,7 @@ impl<'a> Reader<'a> {
         let mut skipped: BTreeMap<Skipped, (usize, usize)> = BTreeMap::new();
         let mut grey = None;
         let mut bare: Option<(usize, usize)> = None;
+        let mut partly: Option<(usize, usize)> = None;
         for face in &self.faces {
             let corners: Vec<Point> =
                 face.corners.iter().map(|c| self.positions[c.position]).collect();
@@ -290,6 +291,9 @@ impl<'a> Reader<'a> {
             if normals.is_empty() && face.group != 0 {
                 let normal = |c: &Corner| smooth.get(&(c.position, face.group)).copied();
                 normals = face.corners.iter().filter_map(normal).collect();
+            }
+            if !normals.is_empty() && normals.len() < corners.len() {
+                partly.get_or_insert((face.line, 0)).1 += 1;
             }
             let textured = face.material.is_some_and(|m| self.materials[m].texture.is_some());
             let uvs: Vec<[f64; 2]> = match textured {
@@ -326,6 +330,12 @@ impl<'a> Reader<'a> {
         warnings.extend(skipped.into_iter().map(|(why, (line, count))| Warning {
             line,
             text: format!("{count} faces {} (this is the first)", why.message()),
+        }));
+        warnings.extend(partly.map(|(line, count)| Warning {
+            line,
+            text: format!(
+                "{count} faces have normals at some corners alone and are flat (this is the first)"
+            ),
         }));
         warnings.extend(bare.map(|(line, count)| Warning {
             line,

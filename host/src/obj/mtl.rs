@@ -55,6 +55,8 @@ struct Entry {
     index: Option<(f64, usize)>,
     filter: Option<Rgb>,
     dissolve: Option<f64>,
+    /// `d -halo` instead of `d`.
+    halo: bool,
     illumination: Option<u8>,
     emission: Option<Rgb>,
     map: Option<Texture>,
@@ -117,6 +119,7 @@ impl Entry {
                 // `d -halo` thins towards the middle, which the model has no meaning for.
                 let mut value = words.next().ok_or_else(|| words.missing(word))?;
                 if value == "-halo" {
+                    self.halo = true;
                     value = words.next().ok_or_else(|| words.missing(word))?;
                 }
                 let mut words = Words::new(value, words.line);
@@ -149,6 +152,9 @@ impl Entry {
             let text = format!("material \"{}\": {text}", self.name);
             warnings.push(Warning { line: self.line, text });
         };
+        if self.halo {
+            say("d -halo thins towards the middle; here it is as thin everywhere");
+        }
         match self.illumination {
             Some(0) => say("illum 0 is lit here as illum 1 is"),
             Some(5 | 7) => {

@@ -24,7 +24,7 @@ const FIRST_BLOCKS: u8 = 16;
 
 #[derive(clap::Args)]
 pub(super) struct Options {
-    /// The scene: .toml, .nff or .obj
+    /// The scene: .toml, .nff, .obj, .gltf or .glb
     scene: PathBuf,
     /// Where the key S saves the picture [default: the scene's name with .png, here]
     #[arg(short, long)]
