@@ -17,14 +17,14 @@ const LEAST_FOR_A_TREE: usize = 10;
 
 /// So many levels a tree for flash may have less than rays would like: each costs a fifth more
 /// work, and the next one would cost twice as much.
-const FEWER_LEVELS: usize = 2;
+const FEWER_LEVELS: usize = 3;
 
 /// What the octree should save.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Thrift {
     /// Time: as many cells as make rays cheaper.
     Time,
-    /// Flash: a level or two less, where the tree would take more than two thirds of what the
+    /// Flash: up to three levels less, where the tree would take more than two thirds of what the
     /// shapes take. The picture is the same.
     Flash,
 }
