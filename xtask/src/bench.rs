@@ -12,12 +12,11 @@ use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SAMPLINGS, SceneName};
 use whitted_demo::rebuild::SHAPES;
 
-use crate::elf;
 use crate::firmware::{rebuilt, result};
-use crate::machine::{self, MACHINES, Machine, Record};
+use crate::machine::{MACHINES, Machine, Record};
 use crate::pico;
 use crate::setup;
-use crate::shell::{boards, root};
+use crate::shell::root;
 
 /// Counts move by this with unrelated edits.
 const TOLERANCE: f64 = 0.03;

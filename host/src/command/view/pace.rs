@@ -72,7 +72,8 @@ mod tests {
     fn the_slower_of_tracing_and_sending() {
         let core = Core { pixel: 1000.0, ray: 0.0, test: 0.0, node: 0.0, lookup: 0.0 };
         let board = Board { mhz: 100.0, cores: 2.0, core, ..BOARDS[0] };
-        let pixel = Pixel { rays: 1.0, shadow: 1.0, nodes: 1.0, tests: 1.0, lookups: 0.0 };
+        let pixel =
+            Pixel { rays: 1.0, shadow: 1.0, nodes: 1.0, tests: 1.0, lookups: 0.0, deepest: 1 };
         let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
         close(seconds(Some((&board, pixel)), None), 5e-6);
         close(seconds(Some((&board, pixel)), Some(62.5)), 5e-6);
