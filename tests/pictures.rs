@@ -107,7 +107,7 @@ fn a_mirror() {
         |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
         |xxxxxxxxxxxxxxxxxxxxxxxxxxxx|
         |=:=:=:=:=:X######X:=:=:=:=:=|
-        |;***;;**xOXXX##XXXOx**;;***;|
+        |;***;;**xOXX####XXOx**;;***;|
         |oo;;;ooo+xxxOOOOxxx+ooo;;;oo|
         |xx-----xx-O-OOxx;x;oo;;;;;oo|
         |xxxxx----xx-xxxx-x-,,,,--xxx|

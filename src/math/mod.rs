@@ -208,7 +208,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn beyond_horizon(_a: Self::Length, _b: Self::Unit) -> Self::Length {
         Self::NO_LENGTH
     }
-    /// `o + a/b·d`, for patterns on a plane beyond the horizon: in fixed point to 32,768 units, where
+    /// `o + a/b·d`, for patterns on a plane beyond the horizon: in fixed point to 16,384 units, where
     /// coordinates begin again.
     #[inline(always)]
     fn endless_point(

@@ -15,8 +15,8 @@ pub(super) fn endless_point(o: &[I16F16; 3], a: I16F16, b: Unit, d: &[Unit; 3]) 
     let o = lengths(o);
     let at = |i: usize| {
         let way = t_q16.wrapping_mul(i64::from(d[i].to_bits())) >> 17;
-        // What doesn't fit falls off the top.
-        I16F16::from_bits(o[i].wrapping_add(way as i32))
+        // What doesn't fit falls off the top, and a bit more, so that differences to it fit.
+        I16F16::from_bits(o[i].wrapping_add(way as i32) << 1 >> 1)
     };
     [at(0), at(1), at(2)]
 }
