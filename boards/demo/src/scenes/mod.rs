@@ -72,9 +72,8 @@ pub trait Shots: Arithmetic {
 }
 
 /// What pictures of jobs may be sampled by, but for the sparse.
-const SAMPLINGS: u64 = Sampling::Corners.uses()
-    | Sampling::Grid { side: 1 }.uses()
-    | Sampling::ADAPTIVE.uses();
+const SAMPLINGS: u64 =
+    Sampling::Corners.uses() | Sampling::Grid { side: 1 }.uses() | Sampling::ADAPTIVE.uses();
 
 impl Shots for Fixed {
     #[inline(always)]
