@@ -6,6 +6,11 @@
 mod bathroom {
     include!(concat!(env!("OUT_DIR"), "/bathroom_f32.rs"));
 }
+#[cfg(any(
+    feature = "counted",
+    not(target_os = "none"),
+    not(all(target_arch = "arm", target_abi = "eabi"))
+))]
 #[path = "ftb.rs"]
 mod ftb;
 #[cfg(all(
@@ -33,7 +38,7 @@ use whitted::frame::{Output, Sampling, Tone};
 
 use whitted::scene::Scene;
 
-use super::{SAMPLINGS, View};
+use super::{SAMPLINGS, SPARSE_APART, View};
 use crate::job::SceneName;
 
 type A = f32;
@@ -44,7 +49,7 @@ const LIMIT_CUTOFF: <A as whitted::math::Arithmetic>::Weight = 4.5 / 256.0;
 /// The old programs' colours are display values.
 const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
 
-/// The limit scene with the code for every sampling but the sparse.
+/// The limit scene with the code for every sampling, or for all but the sparse.
 static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(limit::PARTS);
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
@@ -56,7 +61,7 @@ static SPARSE: Scene<A, { limit::PARTS.uses() | Sampling::SPARSE.uses() }> =
     Scene::tailored(limit::PARTS);
 
 pub(super) fn sparse<V: View<A>>(view: V) -> V::Output {
-    view.view_parts(&SPARSE, &limit::CAMERA, 4, LINEAR)
+    if SPARSE_APART { view.view_parts(&SPARSE, &limit::CAMERA, 4, LINEAR) } else { sampled(view) }
 }
 
 pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {
@@ -71,6 +76,11 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
         }
         SceneName::Limit => view.view_parts(&limit::SCENE, &limit::CAMERA, 4, LINEAR),
         SceneName::Raystones => view.view_parts(&raystones::SCENE, &raystones::CAMERA, 3, LINEAR),
+        #[cfg(any(
+            feature = "counted",
+            not(target_os = "none"),
+            not(all(target_arch = "arm", target_abi = "eabi"))
+        ))]
         SceneName::Ftb => view.view_parts(&ftb::SCENE, &ftb::CAMERA, 3, LINEAR),
         #[cfg(all(
             any(feature = "counted", not(target_os = "none")),
@@ -87,6 +97,12 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
             view.view_parts(&bathroom::SCENE, &bathroom::CAMERA, bathroom::DEPTH, Output::SRGB)
         }
         // Not carried there: no job asks for them.
+        #[cfg(not(any(
+            feature = "counted",
+            not(target_os = "none"),
+            not(all(target_arch = "arm", target_abi = "eabi"))
+        )))]
+        SceneName::Ftb => shot(SceneName::Limit, view),
         #[cfg(all(target_arch = "arm", target_abi = "eabi"))]
         SceneName::Bathroom => shot(SceneName::Limit, view),
         #[cfg(not(all(

@@ -26,7 +26,7 @@ use whitted::frame::{Output, Sampling, Tone};
 
 use whitted::scene::Scene;
 
-use super::{SAMPLINGS, View};
+use super::{SAMPLINGS, SPARSE_APART, View};
 use crate::job::SceneName;
 
 type A = whitted::math::Fixed;
@@ -37,7 +37,7 @@ const LIMIT_CUTOFF: <A as whitted::math::Arithmetic>::Weight = fixed::FixedI32::
 /// The old programs' colours are display values.
 const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
 
-/// The limit scene with the code for every sampling but the sparse.
+/// The limit scene with the code for every sampling, or for all but the sparse.
 static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(limit::PARTS);
 
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
@@ -49,7 +49,7 @@ static SPARSE: Scene<A, { limit::PARTS.uses() | Sampling::SPARSE.uses() }> =
     Scene::tailored(limit::PARTS);
 
 pub(super) fn sparse<V: View<A>>(view: V) -> V::Output {
-    view.view_parts(&SPARSE, &limit::CAMERA, 4, LINEAR)
+    if SPARSE_APART { view.view_parts(&SPARSE, &limit::CAMERA, 4, LINEAR) } else { sampled(view) }
 }
 
 pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {

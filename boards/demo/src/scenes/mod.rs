@@ -60,20 +60,25 @@ pub trait Shots: Arithmetic {
     /// Does something with the scene of a name.
     fn shot<V: View<Self>>(name: SceneName, view: V) -> V::Output;
 
-    /// Does something with the limit scene, in a type that all samplings but the sparse are compiled
-    /// for.
+    /// Does something with the limit scene, in a type that all samplings are compiled for; but for the
+    /// sparse, where there is a type for that.
     fn sampled<V: View<Self>>(view: V) -> V::Output;
 
-    /// The same, in a type that sparse sampling alone is compiled for.
+    /// The same, in a type that sparse sampling alone is compiled for where there is flash to spare.
     fn sparse<V: View<Self>>(view: V) -> V::Output;
 
     /// Does something with two mirrors that face each other, eight generations deep.
     fn mirrors<V: View<Self>>(view: V) -> V::Output;
 }
 
-/// What pictures of jobs may be sampled by, but for the sparse.
-const SAMPLINGS: u64 =
-    Sampling::Corners.uses() | Sampling::Grid { side: 1 }.uses() | Sampling::ADAPTIVE.uses();
+/// What pictures of jobs may be sampled by.
+const SAMPLINGS: u64 = Sampling::Corners.uses()
+    | Sampling::Grid { side: 1 }.uses()
+    | Sampling::ADAPTIVE.uses()
+    | if SPARSE_APART { 0 } else { Sampling::SPARSE.uses() };
+
+/// Whether sparse sampling has a type of its own: a copy of the tracer is ten thousand bytes.
+const SPARSE_APART: bool = cfg!(any(feature = "counted", not(target_os = "none")));
 
 impl Shots for Fixed {
     #[inline(always)]
