@@ -8,9 +8,10 @@ fn main() {
     let board = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     let riscv = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "riscv32");
-    // A chip with cores of two kinds has two.
-    let other = board.join("memory-riscv32.x");
-    let map = if riscv && other.exists() { other } else { board.join("memory.x") };
+    // A chip with cores of two kinds has two, neither of them `memory.x`: the board is a workspace of its own,
+    // and the linker, which looks in its directory first, would take that without what is added here.
+    let other = board.join(if riscv { "memory-riscv32.x" } else { "memory-arm.x" });
+    let map = if other.exists() { other } else { board.join("memory.x") };
     let mut parts = vec![map.clone()];
     // What is copied to RAM; riscv-rt has no such way for more than .data.
     if env::var_os("CARGO_FEATURE_RAM").is_some() && !riscv {

@@ -164,6 +164,12 @@ pub(crate) const fn has_samplings(uses: u64) -> bool {
     uses & (CELLS | CORNERS | ADAPTIVE | SPARSE) != 0
 }
 
+/// Whether a renderer traces from one place: a ray through each pixel's centre, or by sparse sampling.
+#[inline(always)]
+pub(crate) const fn has_one_tracer(uses: u64) -> bool {
+    uses & (CELLS | CORNERS | ADAPTIVE) == 0
+}
+
 /// Whether pictures may be sampled by what rays hit.
 #[inline(always)]
 pub(crate) const fn has_signatures(uses: u64) -> bool {

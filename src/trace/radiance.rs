@@ -15,7 +15,7 @@ use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
-use crate::scene::uses::{self, grey, has, has_indirect, has_spheres_and_planes};
+use crate::scene::uses::{self, grey, has, has_indirect, has_one_tracer, has_spheres_and_planes};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -186,8 +186,36 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
 
     /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
     /// a ray from the eye that `work` has looked from.
-    #[inline]
+    #[inline(always)]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        seen: bool,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> (Rgb<A::Radiance>, A::Length) {
+        if has_one_tracer(USES) {
+            self.follow_in_line(ray, seen, work, tally)
+        } else {
+            self.follow_by_call(ray, seen, work, tally)
+        }
+    }
+
+    /// The same as a function, for samplings that trace from several places.
+    #[inline]
+    fn follow_by_call<T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        seen: bool,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> (Rgb<A::Radiance>, A::Length) {
+        self.follow_in_line(ray, seen, work, tally)
+    }
+
+    /// The same in the loop over pixels, where the compiler knows the scene.
+    #[inline(always)]
+    fn follow_in_line<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
         seen: bool,
