@@ -146,10 +146,13 @@ pub(crate) const fn has_others(uses: u64) -> bool {
         != 0
 }
 
-/// Whether there are spheres and planes, and nothing else; the spheres in a list.
+/// Whether spheres and planes have a copy of the shading each: where there is nothing else, the spheres in
+/// a list. Not on cores that multiply 32 bits alone: their code is longer, and in a firmware of several scenes
+/// the tracer would become a function that reads the scene from memory.
 #[inline(always)]
-pub(crate) const fn has_spheres_and_planes(uses: u64) -> bool {
-    has(uses, PLANES) && !has_others(uses) && !has(uses, TREE) && !has(uses, INSTANCES)
+pub(crate) const fn splits_shading(uses: u64) -> bool {
+    let alone = !has_others(uses) && !has(uses, TREE) && !has(uses, INSTANCES);
+    !cfg!(narrow_multiply) && has(uses, PLANES) && alone
 }
 
 /// Whether there may be diffuse interreflection.
@@ -162,12 +165,6 @@ pub(crate) const fn has_indirect(uses: u64) -> bool {
 #[inline(always)]
 pub(crate) const fn has_samplings(uses: u64) -> bool {
     uses & (CELLS | CORNERS | ADAPTIVE | SPARSE) != 0
-}
-
-/// Whether a renderer traces from one place: a ray through each pixel's centre, or by sparse sampling.
-#[inline(always)]
-pub(crate) const fn has_one_tracer(uses: u64) -> bool {
-    uses & (CELLS | CORNERS | ADAPTIVE) == 0
 }
 
 /// Whether pictures may be sampled by what rays hit.

@@ -186,36 +186,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
 
     /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
     /// a ray from the eye that `work` has looked from.
-    #[inline(always)]
-    fn follow<T: Tally, const MAX_DEPTH: usize>(
-        &self,
-        ray: Ray<A>,
-        seen: bool,
-        work: &mut Work<A, MAX_DEPTH>,
-        tally: &mut T,
-    ) -> (Rgb<A::Radiance>, A::Length) {
-        if has_one_tracer(USES) {
-            self.follow_in_line(ray, seen, work, tally)
-        } else {
-            self.follow_by_call(ray, seen, work, tally)
-        }
-    }
-
-    /// The same as a function, for samplings that trace from several places.
     #[inline]
-    fn follow_by_call<T: Tally, const MAX_DEPTH: usize>(
-        &self,
-        ray: Ray<A>,
-        seen: bool,
-        work: &mut Work<A, MAX_DEPTH>,
-        tally: &mut T,
-    ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow_in_line(ray, seen, work, tally)
-    }
-
-    /// The same in the loop over pixels, where the compiler knows the scene.
-    #[inline(always)]
-    fn follow_in_line<T: Tally, const MAX_DEPTH: usize>(
+    fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
         seen: bool,
@@ -287,8 +259,8 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         }
     }
 
-    /// Shades a hit, see [`shade`](Self::shade). Of scenes that hold spheres and planes alone, either kind
-    /// has a copy of the shading: of a plane most is known before.
+    /// Shades a hit, see [`shade`](Self::shade). Where spheres and planes have a copy of the shading each, most is
+    /// known of a plane before.
     #[inline(always)]
     #[allow(clippy::too_many_arguments, reason = "in line, none is passed")]
     fn shade_hit<T: Tally, const MAX_DEPTH: usize>(
@@ -304,7 +276,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let scene = self.scene;
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        if !has_spheres_and_planes(USES) {
+        if !splits_shading(USES) {
             let place = surface_at(scene, hit.shape, &path.ray, &meeting, &mut p)?;
             return self.shade(path, hit, (place, p), from, sum, work, waiting, tally);
         }
