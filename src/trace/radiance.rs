@@ -15,7 +15,7 @@ use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::Scene;
-use crate::scene::uses::{self, grey, has, has_indirect, has_one_tracer, has_spheres_and_planes};
+use crate::scene::uses::{self, grey, has, has_indirect, splits_shading};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
