@@ -85,18 +85,11 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
 
 /// Builds the image, runs it until the frame is traced, compares, and says what it took.
 fn trace(target: &str, job: &Job) -> Result<String, String> {
-    let features = "st7789-240x240,rtt,ram,one-core,fixed";
+    let features = "st7789-240x240,rtt,one-core,fixed";
     let more = ["--no-default-features", "--features", features];
     let image = machine::build_with(&boards().join("pico2"), "pico2", target, &more)?;
-    if !elf::is_riscv(&image)? {
-        elf::in_ram(&image)?;
-    }
     let mut chip = boot(&image, job)?;
     let start = wait(&mut chip, true, job)?;
-    if !elf::is_riscv(&image)? {
-        // What the frame needs is in RAM.
-        chip.load_flash(&vec![0xff; FLASH_SIZE]);
-    }
     let cycles = wait(&mut chip, false, job)? - start;
 
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
