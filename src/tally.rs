@@ -41,7 +41,10 @@ pub enum Term {
 ///
 /// A tally that stands before another, as the samplers' does, hands every report on: a method added
 /// here is added to `frame/sample.rs` too.
-pub trait Tally {
+pub trait Tally: Sized {
+    /// A tally of this type, if it counts nothing: the tracer then reports to that, and not to the renderer's.
+    const NOTHING: Option<Self> = None;
+
     /// A ray is traced; `weight` is the product of the coefficients down the tree, and the
     /// camera's ray has depth 1.
     #[inline(always)]
@@ -75,7 +78,9 @@ pub trait Tally {
     fn test(&mut self) {}
 }
 
-impl Tally for () {}
+impl Tally for () {
+    const NOTHING: Option<Self> = Some(());
+}
 
 /// Counts by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

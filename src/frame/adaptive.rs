@@ -14,6 +14,7 @@ use super::sample::{differ, differ_in_color};
 use super::{Renderer, Sample};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::tally::Tally;
+use crate::trace::call_site;
 
 /// Of 4×4 cells, the four that go first; numbered row by row.
 const FIRST: [usize; 4] = [1, 7, 8, 14];
@@ -88,7 +89,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let mut sum = [A::BLACK; 3];
         for (right, down) in [(0, 0), (step, 0), (0, step), (step, step)] {
             let (right, down) = (first.0.wrapping_add(right), first.1.wrapping_add(down));
-            let radiance = self.trace(&self.view.row(y, down), x, right);
+            let radiance = self.trace::<{ call_site::ANY }>(&self.view.row(y, down), x, right);
             sum = rgb(&sum, &radiance, A::gather);
         }
         sum.map(|sum| A::mean(sum, 4))

@@ -3,6 +3,7 @@
 use super::{Output, Pixel, Renderer, Settings};
 use crate::math::Arithmetic;
 use crate::tally::Tally;
+use crate::trace::call_site;
 
 impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     Renderer<'_, A, MAX_DEPTH, T, USES>
@@ -16,15 +17,19 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let fit = bytes.len().checked_div(line).unwrap_or(0);
         let left = height.saturating_sub(y);
         let rows = if fit < usize::from(left) { fit as u16 } else { left };
-        let mut places = bytes.iter_mut();
-        for (x, y, radiance) in self.scan(0..width, y..y + rows) {
-            let pixel: P = output.pixel::<A, P>(&radiance, x, y);
-            for byte in pixel.to_be_bytes().iter().take(P::BYTES) {
-                if let Some(place) = places.next() {
-                    *place = *byte;
+        let mut sparse = self.sparse.take();
+        for (y, line) in (y..).zip(bytes.chunks_exact_mut(line.max(1)).take(usize::from(rows))) {
+            let row = self.view.row(y, 128);
+            for (x, bytes) in (0..width).zip(line.chunks_exact_mut(P::BYTES)) {
+                let radiance =
+                    self.shown::<{ call_site::BAND }>(&mut sparse, &row, x, y, (0, width));
+                let pixel: P = output.pixel::<A, P>(&radiance, x, y);
+                for (place, byte) in bytes.iter_mut().zip(pixel.to_be_bytes()) {
+                    *place = byte;
                 }
             }
         }
+        self.sparse = sparse;
         rows
     }
 }

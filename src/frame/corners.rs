@@ -7,6 +7,7 @@ use super::renderer::Remembered;
 use super::{Renderer, Sample};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::tally::Tally;
+use crate::trace::call_site;
 
 /// The sum of four radiances.
 #[inline(always)]
@@ -24,7 +25,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     #[inline(never)]
     pub(super) fn corners(&mut self, x: u16, y: u16, columns: (u16, u16)) -> Rgb<A::Radiance> {
         let corner = |renderer: &mut Self, x, y| {
-            Sample::plain(renderer.trace(&renderer.view.row(y, 0), x, 0))
+            Sample::plain(renderer.trace::<{ call_site::ANY }>(&renderer.view.row(y, 0), x, 0))
         };
         if x == columns.0 {
             self.begin(x, y, columns, corner);

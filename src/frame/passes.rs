@@ -12,6 +12,7 @@
 use super::{FrameError, Renderer, Sampling, Settings};
 use crate::math::{Arithmetic, Rgb};
 use crate::tally::Tally;
+use crate::trace::call_site;
 use core::convert::Infallible;
 use core::ops::Range;
 
@@ -132,7 +133,7 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
                 let radiance = if passes.side == 0 {
                     self.sampled(x, y, (begin, columns.end))
                 } else {
-                    self.trace(&self.view.row(y, 128), x, 128)
+                    self.trace::<{ call_site::PASS }>(&self.view.row(y, 128), x, 128)
                 };
                 let (left, top) = (x.max(columns.start), y.max(rows.start));
                 let (right, bottom) = ((x + side).min(columns.end), (y + side).min(rows.end));

@@ -8,7 +8,7 @@ use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Row, Scene, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
-use crate::trace::{Terms, Tracer, Work};
+use crate::trace::{Terms, Tracer, Work, call_site};
 use core::ops::Range;
 
 /// The larger side of a picture at most.
@@ -40,7 +40,7 @@ pub struct Renderer<
     /// What the sampling remembers, if it does.
     samples: &'a mut [Sample<A>],
     pub(super) remembered: Option<Remembered>,
-    sparse: Sparse<A>,
+    pub(super) sparse: Sparse<A>,
     /// Of adaptive sampling: whether the pixel's corners differ, from the pixel to the right (bit 0) to
     /// the one to the left (bit 2).
     pub(super) flags: u8,
@@ -55,6 +55,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, const USES: u64>
     ///
     /// # Errors
     /// A size, depth, sampling or memory that doesn't fit.
+    // In line, so that what draws knows which scene it is.
+    #[inline(always)]
     pub fn new(
         scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
@@ -73,6 +75,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     ///
     /// # Errors
     /// A size, depth, sampling or memory that doesn't fit.
+    #[inline(always)]
     pub fn with_tally(
         scene: &'a Scene<'a, A, USES>,
         camera: &Camera<A>,
@@ -155,7 +158,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         // compiler knows which scene the tracer is given.
         let mut sparse = self.sparse.take();
         for (x, pixel) in (0..width).zip(pixels) {
-            let radiance = self.shown(&mut sparse, &row, x, y, (0, width));
+            let radiance = self.shown::<{ call_site::LINE }>(&mut sparse, &row, x, y, (0, width));
             *pixel = output.pixel::<A, P>(&radiance, x, y);
         }
         self.sparse = sparse;
@@ -163,7 +166,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
 
     /// The pixel at (x, y), by whatever sampling: see [`sampled`](Self::sampled).
     #[inline(always)]
-    fn shown(
+    pub(super) fn shown<const SITE: u8>(
         &mut self,
         sparse: &mut Sparse<A>,
         row: &Row<A>,
@@ -174,11 +177,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let sampling = self.settings.sampling;
         let center = !has(USES, uses::SPARSE) && sampling == Sampling::Center;
         if !uses::has_samplings(USES) || center {
-            self.trace(row, x, 128)
+            self.trace::<SITE>(row, x, 128)
         } else if has(USES, uses::SPARSE)
             && matches!(sampling, Sampling::Center | Sampling::Sparse { .. })
         {
-            self.sparse(sparse, row, x, y, columns)
+            self.sparse::<SITE>(sparse, row, x, y, columns)
         } else {
             self.sampled(x, y, columns)
         }
@@ -187,7 +190,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// The pixel at (x, y) by sparse sampling, or by a ray through its centre: the tracer stands here
     /// once for both, and for whatever ray is missing.
     #[inline(always)]
-    fn sparse(
+    fn sparse<const SITE: u8>(
         &mut self,
         sparse: &mut Sparse<A>,
         row: &Row<A>,
@@ -217,8 +220,13 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             }
             let ray = self.view.ray(&other, at, 128);
             self.prepare(&other, at, 128);
-            let mut watch = Watch::new(&mut self.tally);
-            let radiance = self.tracer.seen(ray, self.work, &mut watch);
+            let mut nothing = T::NOTHING;
+            let mut watch = Watch::new(nothing.as_mut().unwrap_or(&mut self.tally));
+            let radiance = if uses::has_samplings(USES & !uses::SPARSE) {
+                self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut watch)
+            } else {
+                self.tracer.seen::<SITE, _, _>(ray, self.work, &mut watch)
+            };
             if last {
                 return radiance;
             }
@@ -246,15 +254,26 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// The radiance of the ray that is `fraction`/256 pixels right of the left edge of the pixel at
     /// x, in a row of rays.
     #[inline(always)]
-    pub(super) fn trace(&mut self, row: &Row<A>, x: u16, fraction: u8) -> Rgb<A::Radiance> {
+    pub(super) fn trace<const SITE: u8>(
+        &mut self,
+        row: &Row<A>,
+        x: u16,
+        fraction: u8,
+    ) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
         self.prepare(row, x, fraction);
-        // As in `radiance`.
         if uses::has_signatures(USES) {
+            // As in `radiance`.
             let mut watch = Watch::new(&mut self.tally);
-            self.tracer.seen(ray, self.work, &mut watch)
+            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut watch)
+        } else if uses::has_samplings(USES) {
+            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut self.tally)
         } else {
-            self.tracer.seen(ray, self.work, &mut self.tally)
+            // The renderer isn't lent to what is out of line where nothing is counted: so the compiler knows
+            // what stands in it, the scene above all.
+            let mut nothing = T::NOTHING;
+            let tally = nothing.as_mut().unwrap_or(&mut self.tally);
+            self.tracer.seen::<SITE, _, _>(ray, self.work, tally)
         }
     }
 
@@ -280,7 +299,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         let ray = self.view.ray(&row, x, right);
         self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
-        let radiance = self.tracer.seen(ray, self.work, &mut watch);
+        let radiance = self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut watch);
         watch.sample(radiance)
     }
 
@@ -314,12 +333,12 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
             Sampling::Sparse { .. } if has(USES, uses::SPARSE) => {
                 let mut sparse = self.sparse.take();
                 let row = self.view.row(y, 128);
-                let radiance = self.sparse(&mut sparse, &row, x, y, columns);
+                let radiance = self.sparse::<{ call_site::ANY }>(&mut sparse, &row, x, y, columns);
                 self.sparse = sparse;
                 radiance
             }
             // The renderer isn't made for a sampling that the scene isn't tailored to.
-            _ => self.trace(&self.view.row(y, 128), x, 128),
+            _ => self.trace::<{ call_site::ANY }>(&self.view.row(y, 128), x, 128),
         }
     }
 
@@ -334,7 +353,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
                     None => jitter::middle((i, j), side),
                     Some(seed) => jitter::jittered((i, j), side, (x, y), seed),
                 };
-                let radiance = self.trace(&self.view.row(y, down), x, right);
+                let radiance = self.trace::<{ call_site::ANY }>(&self.view.row(y, down), x, right);
                 sum = rgb(&sum, &radiance, A::gather);
             }
         }
@@ -389,7 +408,8 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
         let (x, y) = (self.x, self.rows.start);
         self.x += 1;
         let columns = (self.columns.start, self.columns.end);
-        let radiance = self.renderer.shown(&mut self.sparse, &self.row, x, y, columns);
+        let radiance =
+            self.renderer.shown::<{ call_site::SCAN }>(&mut self.sparse, &self.row, x, y, columns);
         Some((x, y, radiance))
     }
 }

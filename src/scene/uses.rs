@@ -152,7 +152,7 @@ pub(crate) const fn has_others(uses: u64) -> bool {
 #[inline(always)]
 pub(crate) const fn splits_shading(uses: u64) -> bool {
     let alone = !has_others(uses) && !has(uses, TREE) && !has(uses, INSTANCES);
-    !cfg!(narrow_multiply) && has(uses, PLANES) && alone
+    has(uses, PLANES) && alone
 }
 
 /// Whether there may be diffuse interreflection.

@@ -1,6 +1,7 @@
 //! Tracing: from a camera's ray to its radiance, the tree of rays on an explicit stack.
 
 mod area;
+pub(crate) mod call_site;
 mod detail;
 mod direct;
 mod indirect;

@@ -177,11 +177,15 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
         if let Some(sight) = sight
             && are_few(scene)
         {
-            for (sphere, cone) in shapes.spheres.iter().zip(&sight.cones) {
-                tally.test();
-                if id != left && A::in_cone(cone, &ray.direction) {
+            let mut ahead = sight.ahead(&ray.direction, shapes.spheres.len(), tally);
+            for sphere in shapes.spheres {
+                if ahead == 0 {
+                    break;
+                }
+                if ahead & 1 != 0 && id != left {
                     best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
                 }
+                ahead >>= 1;
                 id += 1;
             }
         } else {

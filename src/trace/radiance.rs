@@ -5,6 +5,7 @@
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
 use super::area::front_before;
+use super::call_site;
 use super::detail::{self, bumped, painted};
 use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
@@ -134,18 +135,23 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow(ray, false, work, tally).0
+        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, false, work, tally).0
     }
 
-    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene.
+    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene; at a
+    /// [call site](call_site) of the caller's.
     #[inline(always)]
-    pub(crate) fn seen<T: Tally, const MAX_DEPTH: usize>(
+    pub(crate) fn seen<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow(ray, true, work, tally).0
+        if call_site::is_in_line::<SITE>() {
+            self.follow(ray, true, work, tally).0
+        } else {
+            self.follow_by_call::<SITE, _, _>(ray, true, work, tally).0
+        }
     }
 
     /// The radiance that a ray which gathers irradiance finds, and how far away.
@@ -156,7 +162,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow(ray, false, work, tally)
+        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, false, work, tally)
     }
 
     #[inline(always)]
@@ -186,7 +192,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
 
     /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
     /// a ray from the eye that `work` has looked from.
-    #[inline]
+    #[inline(always)]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
@@ -257,6 +263,18 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
             tally.ray(kind, path.depth, &path.ray, &path.weight);
             found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
         }
+    }
+
+    /// The same, in line if the compiler thinks so.
+    #[inline]
+    fn follow_by_call<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
+        &self,
+        ray: Ray<A>,
+        seen: bool,
+        work: &mut Work<A, MAX_DEPTH>,
+        tally: &mut T,
+    ) -> (Rgb<A::Radiance>, A::Length) {
+        self.follow(ray, seen, work, tally)
     }
 
     /// Shades a hit, see [`shade`](Self::shade). Where spheres and planes have a copy of the shading each, most is

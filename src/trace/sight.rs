@@ -9,6 +9,7 @@
 use crate::math::{Arithmetic, sub};
 use crate::scene::uses::{self, has};
 use crate::scene::{Scene, Source};
+use crate::tally::Tally;
 
 /// So many spheres have their cones remembered. A list of more is better off with an octree.
 pub(crate) const FEW: usize = 8;
@@ -46,6 +47,26 @@ impl<A: Arithmetic> Sight<A> {
             }
             bit <<= 1;
         }
+    }
+
+    /// A bit for each of the first spheres that a ray in a direction may meet. All cones come before the first
+    /// sphere: what is kept for that then needn't make way for each cone.
+    #[inline(always)]
+    pub(super) fn ahead<T: Tally>(
+        &self,
+        direction: &[A::Unit; 3],
+        count: usize,
+        tally: &mut T,
+    ) -> u32 {
+        let (mut found, mut bit) = (0, 1);
+        for cone in self.cones.iter().take(count) {
+            tally.test();
+            if A::in_cone(cone, direction) {
+                found |= bit;
+            }
+            bit <<= 1;
+        }
+        found
     }
 
     /// Whether the shape is a sphere that hides the point from all who are within.

@@ -168,14 +168,15 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         if let Some(sight) = sight
             && are_few(scene)
         {
-            for (sphere, cone) in shapes.spheres.iter().zip(&sight.cones) {
-                tally.test();
-                if id != left
-                    && A::in_cone(cone, &ray.direction)
-                    && sphere.blocks_likely::<USES>(ray, false, limit)
-                {
+            let mut ahead = sight.ahead(&ray.direction, shapes.spheres.len(), tally);
+            for sphere in shapes.spheres {
+                if ahead == 0 {
+                    break;
+                }
+                if ahead & 1 != 0 && id != left && sphere.blocks_likely::<USES>(ray, false, limit) {
                     return Some(id);
                 }
+                ahead >>= 1;
                 id += 1;
             }
         } else {

@@ -8,7 +8,6 @@ use embedded_graphics::prelude::*;
 use embedded_hal::digital::OutputPin;
 use whitted::Picture;
 use whitted::frame::{Renderer, Rgb565, Settings};
-use whitted::tally::Tally;
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::rgb565;
@@ -91,13 +90,6 @@ fn draw(display: &mut Display, second: &mut Second, order: &Order) -> Result<(),
     }
 }
 
-/// Counts nothing. What counts by another type is another tracer, so that this way has one of its
-/// own: of a tracer that is called from two places the compiler makes a function that reads the scene
-/// from memory, which takes a third more cycles by either way.
-struct Apart;
-
-impl Tally for Apart {}
-
 /// Drawing with embedded-graphics.
 struct Graphics<'a> {
     display: &'a mut Display,
@@ -113,11 +105,10 @@ impl View<Number> for Graphics<'_> {
         let mut work = Work::<_, MAX_DEPTH>::new();
         let Frame { width, height, .. } = self.frame;
         let settings = Settings { depth, ..Settings::new(width, height) };
-        let renderer = Renderer::with_tally(scene, camera, settings, &mut work, &mut [], Apart)
+        let renderer = Renderer::new(scene, camera, settings, &mut work, &mut [])
             .expect("a picture with sides");
-        let picture = Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, Apart, USES>::from_renderer(
-            renderer, output,
-        );
+        let picture =
+            Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), USES>::from_renderer(renderer, output);
         Image::new(&picture, Point::zero()).draw(self.display)
     }
 }
