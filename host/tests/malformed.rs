@@ -388,7 +388,7 @@ const TOML_FILES: &[(&[u8], &str)] = &[
 /// Lines that are wrong after three positions, in OBJ.
 const OBJ: &[(&str, &str)] = &[
     ("v 1 2", ":4: a number or name (position z) on this line is missing"),
-    ("v 1 2 x", ":4: found \"x\"; a finite number (position z)"),
+    ("v 1 2 x", ":4: found \"x\"; a number (position z)"),
     ("v 1 2 nan", ":4: found \"nan\"; a finite number (position z)"),
     ("v 1 2 1e9", ":4: position z 1000000000 is out of range"),
     ("f 1 2", ":4: number of corners 2 is out of range: it must be 3 or more"),
@@ -399,7 +399,7 @@ const OBJ: &[(&str, &str)] = &[
     ("f 1 2 3/1", ":4: texture coordinate number 1 is out of range: it must be left out: no"),
     ("f 1 2 3//1", ":4: normal number 1 is out of range: it must be left out"),
     ("f 1 2 //3", ":4: normal number 3 is out of range"),
-    ("vt x", ":4: found \"x\"; a finite number (texture u)"),
+    ("vt x", ":4: found \"x\"; a number (texture u)"),
     ("vt 0 2e6", ":4: texture v 2000000 is out of range: it must be -1000000 to 1000000"),
     ("f 1 2 x", ":4: found \"x\"; position/texture/normal, each a whole number"),
     ("s red", ":4: found \"red\"; a smoothing group's number, or off"),
