@@ -1,74 +1,11 @@
-//! Scenes that are wrong: each a clear error with file and line, exit code 2, no output.
-
-mod common;
-
-use std::fmt::Write as _;
-
-use common::{errors, files, whitted};
+//! TOML that is wrong.
 
 /// A whole scene in TOML, to which a case adds something wrong; six lines.
-const GOOD: &str = "[camera]\neye = [0, 1, -5]\nlook_at = [0, 0, 0]\n\
+pub(super) const GOOD: &str = "[camera]\neye = [0, 1, -5]\nlook_at = [0, 0, 0]\n\
                     [[material]]\nname = \"red\"\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
 
-/// The view of an NFF file, in seven lines, and a material in the eighth.
-const VIEW: &str = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 8\n\
-                    f 1 0 0 1 0 1 0 1\n";
-
-/// Lines that are wrong after `VIEW`, and what the error says.
-const NFF: &[(&str, &str)] = &[
-    ("s 0 0 0", ":9: the file ends where a number (sphere radius) should follow"),
-    ("s 0 0 0 x", ":9: found \"x\"; a number (sphere radius) should be here"),
-    ("s 0 0 0 NaN", ":9: found \"NaN\"; a finite number (sphere radius)"),
-    ("s 0 0 inf 1", ":9: found \"inf\"; a finite number (sphere z)"),
-    ("s 0 0 1e400 1", ":9: found \"1e400\"; a finite number"),
-    ("s 0 0 0 0", ":9: sphere: its radius is 0"),
-    ("s 1e30 0 0 1", ":9: sphere x 1000000000000000000000000000000 is out of range"),
-    ("s 0 0 0 1\nq 1", ":10: unknown word \"q\"; known: v, from"),
-    ("s 0 0 0 1 5", ":9: unknown word \"5\""),
-    ("p 4\n0 0 0\n1 0 0\n1 1 0", ":12: the file ends where a number (polygon corner 4 x)"),
-    ("p 3\n0 0 0\n1 0 0\ns 0 0 0 1", ":12: found \"s\"; a number (polygon corner 3 x)"),
-    ("p 2\n0 0 0\n1 0 0", ":9: polygon corner count 2 is out of range: it must be 3 to"),
-    ("p -3", ":9: polygon corner count -3 is out of range"),
-    ("p 3.5", ":9: polygon corner count 3.5 is out of range: it must be a whole number"),
-    ("p 999999999", ":9: polygon corner count 999999999 is out of range"),
-    ("p 4\n0 0 0\n3 0 0\n0 1 0\n2 1 0", ":9: polygon: its edges cross each other"),
-    ("p 3\n0 0 0\n1 1 1\n2 2 2", ": a shape (s, c, p or pp) is missing"),
-    ("pp 3\n0 0 0 0 0 1\n1 0 0 0 0", ":11: the file ends where a number (patch normal 2 z)"),
-    ("c 0 0 0 1 0 0 0 1", ":9: cylinder: its two ends are one point"),
-    ("c 0 0 0 0 0 0 1 0", ":9: cylinder: its radius is 0"),
-    ("c 0 0 0 1 0 0 1 -2", ":9: cone: its radii have different signs"),
-    ("l 1 2", ":9: the file ends where a number (light z)"),
-    ("l 1 2 3 1 1\ns 0 0 0 1", ":10: found \"s\"; a number (light blue)"),
-    ("f 1 1 1 -1 0 0 0 1", ":9: Kd -1 is out of range: it must be 0 to 16"),
-    ("f 1 1 1 1 0 0 1 0", ":9: ior 0 is out of range: it must be 0.25 to 4 where T is not 0"),
-    ("f 1 1 1 1 0 0 2 1", ":9: T 2 is out of range: it must be 0 to 1"),
-    ("angle 45", ":9: a second angle; the first is at line 5"),
-    ("v", ":9: a second view (v); the first is at line 1"),
-    ("", ": a shape (s, c, p or pp) is missing"),
-];
-
-/// Whole NFF files.
-const NFF_FILES: &[(&[u8], &str)] = &[
-    (b"", ":1: there is no scene in this file; it is empty"),
-    (b" \n\t\n", ":1: there is no scene in this file; it is empty"),
-    (b"# only a comment\n", ": the view (v, then from, at, up, angle, resolution) is missing"),
-    (b"b 1 1 1\ns 0 0 0 1\n", ":2: a material (f r g b Kd Ks Shine T ior) before the first"),
-    (b"v\nfrom 0 0 1\nup 0 1 0\nangle 45\n", ":1: the view's target (at x y z) is missing"),
-    (b"v\nfrom 0 0 1\nat 0 0 1\nup 0 1 0\nangle 45\n", ":1: view: the camera looks at the point"),
-    (b"v\nfrom 0 0 1\nat 0 0 0\nup 0 0 1\nangle 45\n", ":1: view: the camera's up direction lies"),
-    (b"v\nfrom 0 0 1\nat 0 0 0\nup 0 0 0\nangle 45\n", ":1: view: the camera's up direction is"),
-    (b"v\nangle 180\n", ":2: angle 180 is out of range: it must be 0.01 to 179"),
-    (b"v\nresolution 0 5\n", ":2: resolution x 0 is out of range: it must be 1 to 16384"),
-    (b"v\nresolution 99999999 5\n", ":2: resolution x 99999999 is out of range"),
-    (b"v\nfrom 0 0\xff\xfe 1\n", ":2: is not text"),
-    (b"\x7fELF\x02\x01\x01\0\0\0\0\0", ":1: is not text"),
-    (b"v\nfrom 0 \0 1\n", ":2: is not text"),
-    (b"\x89PNG\r\n\x1a\n", ":1: is not text"),
-    (b"once upon a time", ":1: unknown word \"once\"; known: v, from"),
-];
-
 /// Lines that are wrong after `GOOD`, and what the error says.
-const TOML: &[(&str, &str)] = &[
+pub(super) const LINES: &[(&str, &str)] = &[
     ("[indirect]", ":9: key \"type\" of this indirect is missing"),
     (
         "[indirect]\ntype = \"photons\"",
@@ -368,7 +305,7 @@ const TOML: &[(&str, &str)] = &[
 ];
 
 /// Whole TOML files.
-const TOML_FILES: &[(&[u8], &str)] = &[
+pub(super) const FILES: &[(&[u8], &str)] = &[
     (b"", ":1: there is no scene in this file; it is empty"),
     (b"[render]\n", ": the camera ([camera] eye, look_at) is missing"),
     (b"camera = 3\n", ":1: found 3 for \"camera\"; a table should be here"),
@@ -384,115 +321,3 @@ const TOML_FILES: &[(&[u8], &str)] = &[
     (b"\x00\x01\x02\xff", ":1: is not text"),
     (b"[camera]\neye = \"\xc3\x28\"\n", ":2: is not text"),
 ];
-
-/// Lines that are wrong after three positions, in OBJ.
-const OBJ: &[(&str, &str)] = &[
-    ("v 1 2", ":4: a number or name (position z) on this line is missing"),
-    ("v 1 2 x", ":4: found \"x\"; a number (position z)"),
-    ("v 1 2 nan", ":4: found \"nan\"; a finite number (position z)"),
-    ("v 1 2 1e9", ":4: position z 1000000000 is out of range"),
-    ("f 1 2", ":4: number of corners 2 is out of range: it must be 3 or more"),
-    ("f 1 2 4", ":4: position number 4 is out of range: it must be 1 to 3, or -1 to -3"),
-    ("f 1 2 0", ":4: position number 0 is out of range: it must be 1 to 3"),
-    ("f 1 2 -4", ":4: position number -4 is out of range"),
-    ("f 1 2 99999999999999999999", ":4: found \"99999999999999999999\"; position/texture/normal"),
-    ("f 1 2 3/1", ":4: texture coordinate number 1 is out of range: it must be left out: no"),
-    ("f 1 2 3//1", ":4: normal number 1 is out of range: it must be left out"),
-    ("f 1 2 //3", ":4: normal number 3 is out of range"),
-    ("vt x", ":4: found \"x\"; a number (texture u)"),
-    ("vt 0 2e6", ":4: texture v 2000000 is out of range: it must be -1000000 to 1000000"),
-    ("f 1 2 x", ":4: found \"x\"; position/texture/normal, each a whole number"),
-    ("s red", ":4: found \"red\"; a smoothing group's number, or off"),
-    ("usemtl", ":4: a number or name (material) on this line is missing"),
-    ("solid teapot", ":4: unknown word \"solid\"; known: v, vt, vn, f"),
-    ("f 1 1 1", ": a face (f) with an area is missing"),
-    ("", ": a face (f) with an area is missing"),
-];
-
-/// Every case as a file: its name, its bytes, what the error says.
-fn cases() -> Vec<(&'static str, Vec<u8>, &'static str)> {
-    let after = |start: &str, rest: &str| format!("{start}{rest}\n").into_bytes();
-    let mut all = Vec::new();
-    all.extend(NFF.iter().map(|(text, says)| ("bad.nff", after(VIEW, text), *says)));
-    all.extend(NFF_FILES.iter().map(|(bytes, says)| ("bad.nff", bytes.to_vec(), *says)));
-    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    all.extend(OBJ.iter().map(|(text, says)| ("bad.obj", after(three, text), *says)));
-    all.extend(TOML.iter().map(|(text, says)| ("bad.toml", after(GOOD, text), *says)));
-    all.extend(TOML_FILES.iter().map(|(bytes, says)| ("bad.toml", bytes.to_vec(), *says)));
-    all
-}
-
-#[test]
-fn each_is_a_clear_error_and_leaves_no_file() {
-    let cases = cases();
-    assert!(cases.len() >= 40);
-    let mut wrong = String::new();
-    for (name, bytes, says) in cases {
-        let place = tempfile::tempdir().unwrap();
-        std::fs::write(place.path().join(name), &bytes).unwrap();
-        let output = whitted(place.path(), &["render", name, "--size", "8x8", "-o", "out.png"]);
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        let error = errors(&output);
-        let wanted = format!("{name}{says}");
-        if !error.contains(&wanted) {
-            let _ = write!(wrong, "{text}\nsays: {error}not: {wanted}\n\n");
-        }
-        assert_eq!(
-            error.trim_end().lines().last().map(|l| l.contains(name)),
-            Some(true),
-            "{error}"
-        );
-        assert_eq!(output.status.code(), Some(2), "{text}");
-        assert!(output.stdout.is_empty());
-        assert_eq!(files(place.path()), [name]);
-    }
-    assert!(wrong.is_empty(), "{wrong}");
-}
-
-#[test]
-fn the_good_parts_are_good() {
-    let place = tempfile::tempdir().unwrap();
-    std::fs::write(place.path().join("good.toml"), GOOD).unwrap();
-    std::fs::write(place.path().join("good.nff"), format!("{VIEW}s 0 0 0 1\n")).unwrap();
-    for scene in ["good.toml", "good.nff"] {
-        let output = whitted(place.path(), &["check", scene]);
-        assert_eq!(errors(&output), "");
-        assert_eq!(output.status.code(), Some(0));
-    }
-}
-
-#[test]
-fn what_is_no_scene_file() {
-    let place = tempfile::tempdir().unwrap();
-    std::fs::create_dir(place.path().join("folder.toml")).unwrap();
-    std::fs::write(place.path().join("scene.stl"), "solid").unwrap();
-    std::fs::write(place.path().join("scene"), "solid").unwrap();
-    for (scene, says) in [
-        ("nowhere.toml", "nowhere.toml: can't be read: No such file"),
-        ("folder.toml", "folder.toml: is a directory; a scene is a file"),
-        ("scene.stl", "scene.stl: unknown format \"stl\"; known: .toml, .nff, .obj, .gltf"),
-        ("scene", "scene: unknown format \"\"; known: .toml, .nff, .obj, .gltf"),
-    ] {
-        let output = whitted(place.path(), &["render", scene]);
-        assert!(errors(&output).contains(says), "{}", errors(&output));
-        assert_eq!(output.status.code(), Some(2));
-    }
-    assert_eq!(files(place.path()), ["folder.toml", "scene", "scene.stl"]);
-}
-
-#[cfg(unix)]
-#[test]
-fn a_file_that_may_not_be_read() {
-    use std::os::unix::fs::PermissionsExt;
-    let place = tempfile::tempdir().unwrap();
-    let file = place.path().join("secret.toml");
-    std::fs::write(&file, GOOD).unwrap();
-    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o000)).unwrap();
-    if std::fs::read(&file).is_ok() {
-        eprintln!("skipped: this user may read everything");
-        return;
-    }
-    let output = whitted(place.path(), &["render", "secret.toml"]);
-    assert!(errors(&output).contains("secret.toml: can't be read: Permission denied"));
-    assert_eq!(output.status.code(), Some(2));
-}
