@@ -31,12 +31,13 @@ pub fn survives(format: Format, bytes: &[u8]) {
     }
 }
 
-/// Opens bytes as a blob, the checksum made right, and traces a few pixels of what is in it.
-pub fn survives_blob(bytes: &[u8]) {
+/// Opens bytes as a blob, the checksum made right, and traces a few pixels of what is in it. Says
+/// whether it came to that.
+pub fn survives_blob(bytes: &[u8]) -> bool {
     let mut words = vec![0u64; bytes.len().div_ceil(8)];
     let Some(aligned) = bytemuck::cast_slice_mut::<u64, u8>(&mut words).get_mut(..bytes.len())
     else {
-        return;
+        return false;
     };
     aligned.copy_from_slice(bytes);
     // The length is a count like others, so the sum is over what it says.
@@ -44,16 +45,14 @@ pub fn survives_blob(bytes: &[u8]) {
     if let Some(blob) = aligned.get_mut(..length as usize) {
         seal(blob);
     }
-    look_into_fixed(aligned);
-    look_into_f32(aligned);
-    look_into_f64(aligned);
+    look_into_fixed(aligned) || look_into_f32(aligned) || look_into_f64(aligned)
 }
 
 macro_rules! look_into {
     ($($name:ident: $a:ty),*) => {
         $(
-            fn $name(bytes: &[u8]) {
-                let Ok(blob) = Blob::<$a>::open(bytes) else { return };
+            fn $name(bytes: &[u8]) -> bool {
+                let Ok(blob) = Blob::<$a>::open(bytes) else { return false };
                 let mut materials = [Material::<$a>::new(MaterialSpec::BLACK); 16];
                 let mut lights = [Light::<$a>::point([0.0; 3], [0.0; 3]); 8];
                 let none = AreaLightSpec {
@@ -75,9 +74,10 @@ macro_rules! look_into {
                     groups: &mut [Group::<$a>::NONE; 8],
                     instances: &mut [Instance::<$a>::NONE; 16],
                 };
-                let Ok(scene) = blob.scene_in(room) else { return };
-                let Ok(camera) = blob.camera() else { return };
+                let Ok(scene) = blob.scene_in(room) else { return false };
+                let Ok(camera) = blob.camera() else { return false };
                 trace::<$a>(&scene, &camera);
+                true
             }
         )*
     };

@@ -26,3 +26,4 @@ pub mod stats;
 pub mod terms;
 pub mod toml;
 pub mod tree;
+mod words;

@@ -51,11 +51,16 @@ fn steps(page: &str) -> Vec<Step> {
 }
 
 /// The file that a command writes.
-fn picture(command: &str) -> Option<&str> {
+fn written(command: &str) -> Option<&str> {
     command.split_whitespace().skip_while(|&word| word != "-o").nth(1)
 }
 
-/// Runs a command at the root, its picture going elsewhere; says what it said but for times, and
+/// The same, if it is a picture.
+fn picture(command: &str) -> Option<&str> {
+    written(command).filter(|name| name.ends_with(".png"))
+}
+
+/// Runs a command at the root, its file going elsewhere; says what it said but for times, and
 /// for the rays where it shows something else than light.
 fn run(command: &str, out: &Path) -> String {
     let mut words: Vec<&str> = command.split_whitespace().collect();
@@ -71,7 +76,7 @@ fn run(command: &str, out: &Path) -> String {
     if all.lines().any(|line| line.starts_with("0 rays")) {
         return String::new();
     }
-    let unsaid = |line: &str| line.contains(" s (") || line.ends_with(".png");
+    let unsaid = |line: &str| line.contains(" s (") || Path::new(line) == out;
     let lines = all.lines().filter(|line| !unsaid(line));
     lines.map(|line| format!("{line}\n")).collect()
 }
@@ -91,7 +96,9 @@ fn commands_say_and_draw_what_the_page_shows() {
                     let at = next.fetch_add(1, Ordering::Relaxed);
                     steps.get(at).map(|step| (at, step))
                 } {
-                    let out = place.path().join(format!("{at}.png"));
+                    let name = written(&step.command).unwrap_or_default();
+                    let out = place.path().join(format!("{at}"));
+                    let out = out.with_extension(Path::new(name).extension().unwrap_or_default());
                     let now = run(&step.command, &out);
                     if renew {
                         if let Some(name) = picture(&step.command) {

@@ -118,6 +118,40 @@ fn absorption_goes_by_the_scenes_own_lengths() {
     }
 }
 
+/// What a unit of length may absorb is limited in the units that the arithmetic gives the scene; the
+/// error says so in the scene's own, at the line that is wrong.
+#[test]
+fn what_absorbs_too_much_is_refused_at_its_line() {
+    fn refused<A: Construct>(scale: f64) {
+        let text = |rate: f64| {
+            format!(
+                "[camera]\neye = [0, 0, {}]\nlook_at = [0, 0, 0]\n\
+                 [[material]]\nname = \"a\"\ntransmission = 1\n\
+                 absorption_front = 0.001\nabsorption = [0, {rate}, 0]\n\
+                 [[sphere]]\ncenter = [0, 0, 0]\nradius = {scale}\n",
+                9.0 * scale,
+            )
+        };
+        let baked = Baked::<A>::new(&scene(&text(0.001))).unwrap();
+        let most = 170.0 * baked.placement.scale();
+        Baked::<A>::new(&scene(&text(most))).unwrap_or_else(|flaw| panic!("{}", flaw.problem));
+        let flaw = Baked::<A>::new(&scene(&text(most * 1.5))).unwrap_err();
+        assert_eq!(flaw.line, Some(8));
+        let said = flaw.problem.to_string();
+        let right = format!(
+            "absorption {} is out of range: it must be 0 to {most} (in {} arithmetic, in this scene)",
+            most * 1.5,
+            A::NAME
+        );
+        assert_eq!(said, right);
+    }
+    for scale in [0.1, 1.0, 300.0] {
+        refused::<Fixed>(scale);
+        refused::<f32>(scale);
+        refused::<f64>(scale);
+    }
+}
+
 #[test]
 fn a_scene_of_everything() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/textures.toml");

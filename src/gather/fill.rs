@@ -11,12 +11,12 @@
 //! After the last pass the records don't change, so that bands, clips, order and threads can't
 //! change a bit of the picture. When the pool is full no more are added.
 
-use super::gradient::{Gradients, Seen};
+use super::gradient::{Gradients, Seen, along, length};
 use super::hemisphere::{MAX_RINGS, raised, tangents};
 use super::order::arrange;
 use super::record::PackedRgb;
 use super::{Gathering, Indirect, IrradianceCache, Record};
-use crate::math::{Arithmetic, hash, rgb, spread, sqrt_u32};
+use crate::math::{Arithmetic, hash, rgb, spread};
 use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Scene, View};
 use crate::shape::{Leaving, Ray};
@@ -324,35 +324,14 @@ impl<'a, 'w, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
 
         // The gradients along the axes, the translational one for the reach instead of `farthest`.
         let part_q16 = A::ratio_q16(reach, farthest) as i32;
-        let along = |[x, y]: [i32; 2], most: i32| {
-            let size = length(&[x, y]);
-            // at most so long, and that as ±127
-            let scale = if size > most { size } else { most };
-            let small = |x: i32| (x << 10).checked_div(scale >> 4).unwrap_or(0);
-            let (x, y) = (small(x), small(y));
-            let f = |i: usize| {
-                let q14 = (A::to_q17(frame[0][i]) >> 6)
-                    .wrapping_mul(x)
-                    .wrapping_add((A::to_q17(frame[1][i]) >> 6).wrapping_mul(y))
-                    >> 11;
-                (q14.wrapping_mul(127) >> 14) as i8
-            };
-            [f(0), f(1), f(2)]
-        };
         let shorter = |x: i32| (i64::from(x).wrapping_mul(i64::from(part_q16)) >> 16) as i32;
         Record {
             position,
             reach,
             irradiance: PackedRgb::new(irradiance),
             normal_q14: normal.map(|n| (A::to_q17(n) >> 3) as i16),
-            translation_q7: along(translation.map(shorter), 1 << 16),
-            rotation_q6: along(rotation, 1 << 17),
+            translation_q7: along::<A>(&frame, translation.map(shorter), 1 << 16),
+            rotation_q6: along::<A>(&frame, rotation, 1 << 17),
         }
     }
-}
-
-/// The length of a vector of at most 2²² along each axis, within 2⁸.
-fn length(v: &[i32; 2]) -> i32 {
-    let square = |x: i32| (x >> 7).wrapping_mul(x >> 7) as u32;
-    (sqrt_u32(square(v[0]).wrapping_add(square(v[1]))) << 7) as i32
 }

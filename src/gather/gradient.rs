@@ -15,7 +15,7 @@
 //! mean of the channels, both in Q16.
 
 use super::hemisphere::{MAX_RINGS, Strata, cosine_q15, part_q16, root_q16, sine_q15};
-use crate::math::sqrt_u32;
+use crate::math::{Arithmetic, sqrt_u32};
 
 /// What a ray of the hemisphere found.
 #[derive(Clone, Copy, Debug, Default)]
@@ -141,4 +141,71 @@ fn add(sum: &mut [i64; 2], length: i64, turn_q16: u32) {
     let along = |c: i32| length.wrapping_mul(i64::from(c)) >> 15;
     sum[0] = sum[0].wrapping_add(along(cosine_q15(turn_q16)));
     sum[1] = sum[1].wrapping_add(along(sine_q15(turn_q16)));
+}
+
+/// The length of a vector of at most 2²² along each axis, within 2⁸: at most 310 too short.
+pub(super) fn length(v: &[i32; 2]) -> i32 {
+    let square = |x: i32| (x >> 7).wrapping_mul(x >> 7) as u32;
+    (sqrt_u32(square(v[0]).wrapping_add(square(v[1]))) << 7) as i32
+}
+
+/// A gradient along the tangents, made no longer than `most`, in 127ths of that along the axes.
+#[inline(always)]
+pub(super) fn along<A: Arithmetic>(
+    frame: &[[A::Unit; 3]; 2],
+    gradient: [i32; 2],
+    most: i32,
+) -> [i8; 3] {
+    let size = length(&gradient);
+    let scale = if size > most { size } else { most };
+    let part = |x: i32| {
+        let q14 = (i64::from(x) << 10).checked_div(i64::from(scale >> 4));
+        q14.unwrap_or(0) as i32
+    };
+    let [x, y] = gradient.map(part);
+    let f = |i: usize| {
+        let q14 = (A::to_q17(frame[0][i]) >> 6)
+            .wrapping_mul(x)
+            .wrapping_add((A::to_q17(frame[1][i]) >> 6).wrapping_mul(y))
+            >> 11;
+        (q14.wrapping_mul(127) >> 14) as i8
+    };
+    [f(0), f(1), f(2)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Record;
+    use super::super::hemisphere::tangents;
+    use super::*;
+    use crate::blob::Stored;
+    use crate::math::Fixed;
+    use proptest::prelude::*;
+    extern crate std;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        /// Whatever was gathered can be baked, and points where it did.
+        #[test]
+        fn records_hold_every_gradient(
+            turn in -3.15f64..3.15, up in -1.0f64..=1.0, angle in -3.15f64..3.15, log in 8.0f64..21.9,
+        ) {
+            let across = (1.0 - up * up).sqrt();
+            let normal = [across * turn.cos(), up, across * turn.sin()];
+            let unit = normal.map(|x| Fixed::unit_q17((x * 131_072.0) as i32));
+            let frame = tangents::<Fixed>(&unit);
+            let size = log.exp2();
+            let gradient = [angle.cos(), angle.sin()].map(|c| (c * size) as i32);
+            let record = Record::<Fixed> {
+                normal_q14: normal.map(|x| (x * 16384.0) as i16),
+                reach: Fixed::FAR,
+                translation_q7: along::<Fixed>(&frame, gradient, 1 << 16),
+                rotation_q6: along::<Fixed>(&frame, gradient, 1 << 17),
+                ..Record::NONE
+            };
+            prop_assert!(record.is_sound(), "{record:?}");
+            prop_assert_eq!(Record::<Fixed>::try_new(&record.spec()), Ok(record));
+        }
+    }
 }

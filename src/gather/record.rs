@@ -99,8 +99,16 @@ stored!(Record {
     rotation_q6: whole,
 } if *reach > A::NO_LENGTH
     && square(normal_q14, 1.0 / 16384.0, 0.99, 1.01)
-    && square(translation_q7, 1.0 / 127.0, 0.0, 1.03)
-    && square(rotation_q6, 1.0 / 63.0, 0.0, 4.12));
+    && square(translation_q7, 1.0 / 127.0, 0.0, STEEPEST)
+    && square(rotation_q6, 1.0 / 63.0, 0.0, MOST_TURNING));
+
+// A gatherer makes no gradient longer than 127, whatever that stands for, but by what its arithmetic
+// is wrong: 5.6 in 1,000 of 65536, half of it of twice that, then less than a step along each axis.
+
+/// The largest square of a translational gradient: ((1.0056·127 + √3)/127)².
+const STEEPEST: f64 = 1.04;
+/// The largest square of a rotational one: ((1.0034·127 + √3)/63)².
+const MOST_TURNING: f64 = 4.21;
 
 /// Whether the square of a vector lies within bounds.
 pub(super) fn square<T: Copy + Into<f64>>(v: &[T; 3], one: f64, least: f64, most: f64) -> bool {
@@ -197,9 +205,7 @@ for_each_arithmetic! {
                 rotation_q6[i] = rounds(r * 63.0) as i8;
                 i += 1;
             }
-            // What a gatherer makes is a step too long at most in each component, rounded down: (1 + √3/127)²,
-            // (2 + √3/63)², and a little.
-            if !(slope <= 1.03 && turn <= 4.12) {
+            if !(slope <= STEEPEST && turn <= MOST_TURNING) {
                 return Err(ShapeError::Coefficient);
             }
             if !(square > 0.99 && square < 1.01) {

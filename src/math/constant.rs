@@ -2,6 +2,9 @@
 //! They serve scenes written as `static`s; they are ordinary IEEE arithmetic, so a target
 //! computes the same bits at run time as the compiler does.
 
+/// The most that a unit of length may absorb: nothing that one sees is left after a tenth of that.
+pub(crate) const DENSEST: f64 = 170.0;
+
 /// The square root, to the last bit or its neighbour; 0 for what has none.
 pub(crate) const fn sqrt(x: f64) -> f64 {
     if !(x > 0.0) || x == f64::INFINITY {

@@ -28,7 +28,7 @@ mod vector;
 pub(crate) use constant::sin_cos_degrees;
 pub use constant::tan_degrees;
 pub(crate) use constant::{
-    cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
+    DENSEST, cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
 };
 pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
 pub use fixed::{FixedDecay, FixedSpot};

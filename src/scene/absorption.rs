@@ -4,7 +4,7 @@
 //! indices of refraction, a surface says what lies before and behind it; which of the two a ray came
 //! through is known where it meets the surface.
 
-use crate::math::{Arithmetic, Rgb, for_each_arithmetic, rgb};
+use crate::math::{Arithmetic, DENSEST, Rgb, for_each_arithmetic, rgb};
 use crate::shape::{ShapeError, ok_or_panic, some_or};
 
 /// The media on both sides of a surface: what a unit of length takes of each channel.
@@ -39,7 +39,7 @@ for_each_arithmetic! {
         /// exp(−a·d) for each channel, 0 for what is clear.
         ///
         /// # Errors
-        /// A number that is negative, none, or beyond 170 (which nothing gets through).
+        /// A number that is negative, none, or beyond [`MOST`](Self::MOST).
         pub const fn try_new(front: Rgb<f64>, behind: Rgb<f64>) -> Result<Self, ShapeError> {
             Ok(Self { front: decay!(front), behind: decay!(behind) })
         }
@@ -47,6 +47,9 @@ for_each_arithmetic! {
 }
 
 impl<A: Arithmetic> Absorption<A> {
+    /// The most that a unit of length may take of a channel: nothing gets through that.
+    pub const MOST: f64 = DENSEST;
+
     /// What is left of a weight after a way that ended at the surface.
     pub(crate) fn after(
         &self,

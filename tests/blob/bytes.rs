@@ -35,29 +35,20 @@ fn is_noticed(mut blob: Aligned) {
 /// The same with the checksum made right again: what an enemy would do.
 #[test]
 fn every_change_of_a_byte_is_refused_or_harmless() {
-    is_refused_or_harmless(written(&content(&kinds())), |_| true);
-}
-
-/// What the other blob has none of: every bit, and the smallest and the largest byte.
-#[test]
-fn every_change_of_a_bit_of_groups_is_refused_or_harmless() {
-    let few =
-        |[value, right]: [u8; 2]| u8::count_ones(value ^ right) == 1 || value == 0 || value == 255;
-    is_refused_or_harmless(with_groups(&grouped(), written), few);
+    is_refused_or_harmless(written(&content(&kinds())));
 }
 
 #[test]
-#[ignore = "takes a minute: for whoever changes what blobs hold of groups"]
 fn every_change_of_a_byte_of_groups_is_refused_or_harmless() {
-    is_refused_or_harmless(with_groups(&grouped(), written), |_| true);
+    is_refused_or_harmless(with_groups(&grouped(), written));
 }
 
-fn is_refused_or_harmless(mut blob: Aligned, tried: impl Fn([u8; 2]) -> bool) {
+fn is_refused_or_harmless(mut blob: Aligned) {
     let (mut refused, mut shows) = (0, 0);
     for at in 0..blob.bytes().len() {
         let right = blob.bytes()[at];
         for value in (0..=255).filter(|v| *v != right) {
-            if !is_tried([value, right]) || !tried([value, right]) {
+            if !is_tried([value, right]) {
                 continue;
             }
             blob.set(at, value);

@@ -174,8 +174,8 @@ the same on every machine.
 - A tree is built over spheres at random and checked, in the caller's memory.
 - The images `limit-fixed` and `limit-f32` hold a row of the limit scene, 240 pixels of RGB565,
   and nothing else.
-- Beside POV-Ray on a PC, in CPU seconds of one run, `whitted render` takes SPD's balls in `f32` 2.3 times as fast
-  (0.93 s against 0.40): `docs/povray.md`, measured by hand, not by `cargo xtask bench`.
+- Beside POV-Ray on a PC, in CPU seconds of one run, `whitted render` takes SPD's balls in `f32` 2.1 times as fast
+  (0.82 s against 0.39): `docs/povray.md`, measured by hand, not by `cargo xtask bench`.
 ";
 
 /// The pictures to count on, at the sizes their peers have.

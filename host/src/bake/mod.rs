@@ -79,7 +79,7 @@ impl<A: Construct> Baked<A> {
             document::Background::Color(color) => A::new_uniform(color),
             document::Background::Gradient { bottom, top, up } => A::new_gradient(up, bottom, top),
         };
-        let detail = detail(&placed)?;
+        let detail = detail(&placed, placement.scale())?;
         let file = |i| placed.file_of_shape(i);
         let shapes = Shapes::new(&placed.shapes, placed.bounds(), file, thrift)?;
         let baked = Self {
@@ -247,6 +247,20 @@ fn materials<A: Construct>(document: &Document) -> Result<Vec<Material<A>>, Flaw
     all.map(|(i, m)| make(m).map_err(|flaw| flaw.within(from(i)))).collect()
 }
 
+/// Whether a placed material's media are ones that the core takes; if not, what is wrong in the
+/// scene's own units.
+fn absorbable<A: Construct>(material: &document::Material, scale: f64) -> Result<(), Flaw> {
+    let most = Absorption::<A>::MOST;
+    let keys = ["absorption_front", "absorption"].into_iter().zip(material.absorption_lines);
+    for ((key, line), rates) in keys.zip(material.absorption) {
+        if let Some(rate) = rates.into_iter().find(|&rate| rate > most) {
+            let right = format!("0 to {} (in {} arithmetic, in this scene)", most * scale, A::NAME);
+            return Err(Problem::range(key, rate * scale, right).at(line));
+        }
+    }
+    Ok(())
+}
+
 /// What materials name by index.
 struct Detail<A: Construct> {
     textures: Vec<Texture<'static, A>>,
@@ -255,7 +269,7 @@ struct Detail<A: Construct> {
 
 /// The textures and media of all materials, one after the other, each material's bump after its
 /// texture.
-fn detail<A: Construct>(document: &Document) -> Result<Detail<A>, Flaw> {
+fn detail<A: Construct>(document: &Document, scale: f64) -> Result<Detail<A>, Flaw> {
     let mut detail = Detail { textures: Vec::new(), absorptions: Vec::new() };
     for (i, material) in document.materials.iter().enumerate() {
         let from = document.file_of_material(i);
@@ -268,6 +282,7 @@ fn detail<A: Construct>(document: &Document) -> Result<Detail<A>, Flaw> {
             detail.textures.push(A::new_texture(&spec).map_err(refuse)?);
         }
         if material.absorbs() {
+            absorbable::<A>(material, scale).map_err(|flaw| flaw.within(from))?;
             let [front, behind] = material.absorption;
             let made = A::new_absorption(front, behind);
             detail.absorptions.push(made.map_err(|e| refuse("the absorption", e, material.line))?);

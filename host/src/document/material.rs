@@ -59,6 +59,8 @@ pub struct Material {
     pub fresnel: bool,
     /// What a unit of length takes of the light, as the a of exp(−a·d), before the surface and behind.
     pub absorption: [Rgb; 2],
+    /// The lines that say so.
+    pub absorption_lines: [usize; 2],
     /// The line of the file that it starts on.
     pub line: usize,
 }
@@ -83,6 +85,7 @@ impl Material {
             bump: None,
             fresnel: false,
             absorption: [[0.0; 3]; 2],
+            absorption_lines: [line; 2],
             line,
         }
     }

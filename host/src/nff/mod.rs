@@ -14,6 +14,7 @@ use crate::document::{
     Rules, ShadowThrough, Shape, Size, Span, Warning,
 };
 use crate::error::{Flaw, Problem};
+use crate::words::Numbers;
 use token::Tokens;
 
 /// The words that an entity can start with.

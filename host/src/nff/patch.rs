@@ -4,6 +4,7 @@ use super::Reader;
 use crate::document::{Body, Point, Shape};
 use crate::error::Flaw;
 use crate::polygon::{NoPolygon, Parts, split};
+use crate::words::Numbers;
 
 /// More corners than any file has by intent; keeps a wrong count from reading on for ever.
 const MOST_CORNERS: u32 = 100_000;

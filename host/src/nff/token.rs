@@ -2,8 +2,8 @@
 
 use std::str::SplitAsciiWhitespace;
 
-use crate::document::{FARTHEST, Point};
-use crate::error::{Flaw, Problem, shown};
+use crate::error::{Flaw, Problem};
+use crate::words::Numbers;
 
 /// Words one after the other; comments and line breaks are gone.
 pub(super) struct Tokens<'t> {
@@ -20,11 +20,6 @@ impl<'t> Tokens<'t> {
     pub(super) fn new(text: &'t str) -> Self {
         let words = "".split_ascii_whitespace();
         Self { lines: text.lines().enumerate(), words, line: 1, next: None, current: 1 }
-    }
-
-    /// The line of the word read last.
-    pub(super) fn line(&self) -> usize {
-        self.line
     }
 
     pub(super) fn peek(&mut self) -> Option<&'t str> {
@@ -48,41 +43,6 @@ impl<'t> Tokens<'t> {
         Some(word)
     }
 
-    /// A finite number; `what` says what it is, for the error.
-    pub(super) fn number(&mut self, what: &str) -> Result<f64, Flaw> {
-        let Some(word) = self.word() else {
-            let wanted = format!("a number ({what})");
-            return Err(Problem::Ended { wanted }.at(self.line));
-        };
-        let wrong = |wanted: String| {
-            Err(Problem::Found { found: format!("\"{}\"", shown(word)), wanted }.at(self.line))
-        };
-        match word.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) => wrong(format!("a finite number ({what})")),
-            Err(_) => wrong(format!("a number ({what})")),
-        }
-    }
-
-    /// A number between two others, both allowed.
-    pub(super) fn number_in(&mut self, what: &str, low: f64, high: f64) -> Result<f64, Flaw> {
-        let value = self.number(what)?;
-        if value < low || value > high {
-            let right = format!("{low} to {high}");
-            return Err(Problem::range(what, value, right).at(self.line));
-        }
-        Ok(value)
-    }
-
-    /// Three coordinates.
-    pub(super) fn point(&mut self, what: &str) -> Result<Point, Flaw> {
-        let mut point = [0.0; 3];
-        for (axis, value) in ["x", "y", "z"].iter().zip(&mut point) {
-            *value = self.number_in(&format!("{what} {axis}"), -FARTHEST, FARTHEST)?;
-        }
-        Ok(point)
-    }
-
     /// Three channels, not negative.
     pub(super) fn color(&mut self, what: &str) -> Result<[f64; 3], Flaw> {
         let mut color = [0.0; 3];
@@ -99,5 +59,16 @@ impl<'t> Tokens<'t> {
             return Err(Problem::range(what, value, "a whole number").at(self.line));
         }
         Ok(value as u32)
+    }
+}
+
+impl<'t> Numbers<'t> for Tokens<'t> {
+    fn needed(&mut self, what: &str) -> Result<&'t str, Flaw> {
+        let wanted = format!("a number ({what})");
+        self.word().ok_or_else(|| Problem::Ended { wanted }.at(self.line))
+    }
+
+    fn line(&self) -> usize {
+        self.line
     }
 }

@@ -1,7 +1,7 @@
 //! The words of a line.
 
-use crate::document::FARTHEST;
-use crate::error::{Flaw, Problem, shown};
+use crate::error::{Flaw, Problem};
+use crate::words::Numbers;
 
 /// Lines with their numbers, without comments; one that ends in a backslash goes on in the next.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, String)> + '_ {
@@ -44,35 +44,17 @@ impl<'t> Words<'t> {
         if name.is_empty() { Err(self.missing(what)) } else { Ok(name) }
     }
 
-    pub(super) fn number(&mut self, what: &str) -> Result<f64, Flaw> {
-        let word = self.next().ok_or_else(|| self.missing(what))?;
-        match word.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(self.found(word, &format!("a finite number ({what})"))),
-        }
-    }
-
-    /// A number within a range whose ends are allowed.
-    pub(super) fn number_in(&mut self, what: &str, low: f64, high: f64) -> Result<f64, Flaw> {
-        let value = self.number(what)?;
-        if value < low || value > high {
-            let right = format!("{low} to {high}");
-            return Err(Problem::range(what, value, right).at(self.line));
-        }
-        Ok(value)
-    }
-
-    pub(super) fn point(&mut self, what: &str) -> Result<[f64; 3], Flaw> {
-        let mut axis = |name| self.number_in(&format!("{what} {name}"), -FARTHEST, FARTHEST);
-        Ok([axis("x")?, axis("y")?, axis("z")?])
-    }
-
     pub(super) fn missing(&self, what: &str) -> Flaw {
         Problem::Missing { what: format!("a number or name ({what}) on this line") }.at(self.line)
     }
+}
 
-    pub(super) fn found(&self, word: &str, wanted: &str) -> Flaw {
-        let found = format!("\"{}\"", shown(word));
-        Problem::Found { found, wanted: wanted.into() }.at(self.line)
+impl<'t> Numbers<'t> for Words<'t> {
+    fn needed(&mut self, what: &str) -> Result<&'t str, Flaw> {
+        self.next().ok_or_else(|| self.missing(what))
+    }
+
+    fn line(&self) -> usize {
+        self.line
     }
 }

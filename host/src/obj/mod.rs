@@ -19,6 +19,7 @@ use crate::document::{
 use crate::error::{Flaw, Problem};
 use crate::mesh::{Faces, Skipped, frame, repeated};
 use crate::read::Around;
+use crate::words::Numbers;
 use line::{Words, lines};
 
 /// Words of the format whose meaning the model lacks, and what they are.

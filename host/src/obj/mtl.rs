@@ -19,6 +19,7 @@ use crate::document::{Material, Rgb, ShadowThrough, Texture, Warning};
 use crate::error::{Flaw, Problem, shown};
 use crate::mesh;
 use crate::read::{self, Around};
+use crate::words::Numbers;
 
 /// What was read.
 pub(super) struct Library {

@@ -14,7 +14,8 @@ const STRONGEST: f64 = 15.9;
 /// The largest radiance.
 const BRIGHTEST: f64 = 1000.0;
 
-/// What a unit of length may absorb; more is as good as opaque.
+/// What a unit of length may absorb. What an arithmetic takes depends on the scale that it gives the
+/// scene, and is asked when it is baked.
 const DENSEST: f64 = 1e6;
 
 /// The materials read so far, and the checkers that name others.
@@ -155,6 +156,8 @@ impl<'d> Names<'d> {
             texture,
             bump,
             fresnel: table.flag("fresnel", like.fresnel)?,
+            absorption_lines: ["absorption_front", "absorption"]
+                .map(|key| table.get(key).map_or(table.line, |value| value.line)),
             absorption: [
                 table.color("absorption_front", DENSEST, like.absorption[0])?,
                 table.color("absorption", DENSEST, like.absorption[1])?,

@@ -3,7 +3,7 @@
 use super::{Aim, FixedBarycentric, FixedDecay, FixedEdge, FixedEta, FixedExponent};
 use super::{FixedFactor, FixedIntensity, FixedOutline, FixedRadius, FixedRotation, FixedScale};
 use super::{Unit, Weight};
-use crate::math::inverted;
+use crate::math::{DENSEST, inverted};
 use ::fixed::types::I16F16;
 
 const fn round(x: f64) -> f64 {
@@ -149,7 +149,7 @@ pub(crate) const fn eta(x: f64) -> Option<FixedEta> {
 
 /// From what a unit of length takes, in natural orders of magnitude.
 pub(crate) const fn decay(x: f64) -> Option<FixedDecay> {
-    if !within(x, 0.0, 170.0) {
+    if !within(x, 0.0, DENSEST) {
         return None;
     }
     Some(FixedDecay(round(x * core::f64::consts::LOG2_E * 16777216.0) as u32))

@@ -114,7 +114,7 @@ pub struct FixedEdge {
 }
 
 stored_numbers!(FixedRadius { mantissa, reciprocal, coarse, shift, missing }
-    if |r| r.shift <= 12 && r.missing <= 15);
+    if |r| r.shift <= 9 && r.missing <= 11 && r.is_inverted());
 stored_numbers!(FixedBarycentric { second, third, second_down, third_down, shift }
     if |f| f.second_down <= 16 && f.third_down <= 16 && f.shift <= 16
         && f.second.iter().chain(&f.third).all(|x| x.unsigned_abs() <= 16384));

@@ -16,6 +16,16 @@ impl FixedRadius {
         self.reciprocal as i32 | 0x1_0000
     }
 
+    /// Whether the reciprocal is that of the mantissa, but for what rounding both may do. Otherwise a
+    /// point that is put back on the sphere could leave the range.
+    pub(super) fn is_inverted(&self) -> bool {
+        let (one, down) = (1u64 << 32, u32::from(self.missing));
+        let reciprocal = u64::from(self.reciprocal) | 0x1_0000;
+        let product = reciprocal.wrapping_mul(u64::from(self.mantissa).wrapping_shl(down));
+        // half a step of the mantissa, and one of the reciprocal
+        product.abs_diff(one) <= (reciprocal.wrapping_shl(down) >> 1).wrapping_add(1 << 16)
+    }
+
     /// `a/r` in Q17: a·2³²/(m·2^e) with the operand brought to where the product keeps it.
     #[inline(always)]
     pub(super) fn divide(&self, a: i32) -> i32 {

@@ -1,5 +1,6 @@
 //! Each operation of [`Fixed`] against `f64`, with its error stated.
 use super::{constructors as make, *};
+use crate::blob::Stored;
 use proptest::prelude::*;
 extern crate std;
 use std::prelude::v1::*;
@@ -30,6 +31,20 @@ fn toward() -> impl Strategy<Value = [f64; 3]> {
 }
 
 proptest! {
+    /// Radii are from 2⁻¹² to 500. What is stored beside them is their own: that of a sphere twice as
+    /// large, or half as large, is none.
+    #[test]
+    fn radii_are_sound(log in -12.0f64..=8.965) {
+        let radius = make::radius(log.exp2()).unwrap();
+        prop_assert!(radius.is_sound(), "{radius:?}");
+        let more = FixedRadius { missing: radius.missing + 1, ..radius };
+        prop_assert!(!more.is_sound(), "{more:?}");
+        if let Some(missing) = radius.missing.checked_sub(1) {
+            let less = FixedRadius { missing, ..radius };
+            prop_assert!(!less.is_sound(), "{less:?}");
+        }
+    }
+
     #[test]
     fn along_rounds_once(o in any(500.0), t in 0.0..500.0f64, v in toward()) {
         let (d, df) = direction_of(v);

@@ -66,7 +66,7 @@ macro_rules! constructors {
             }
 
             pub(crate) const fn decay(x: f64) -> Option<$f> {
-                within(x, 0.0, 170.0)
+                within(x, 0.0, crate::math::DENSEST)
             }
 
             pub(crate) const fn aim(x: f64) -> Option<$f> {
