@@ -161,7 +161,7 @@ pub(crate) fn symbol(path: &Path, name: &str) -> Result<(u64, u64), String> {
 }
 
 /// What a program with `boards/ram.x` has of the library and the scenes is in RAM, functions and statics
-/// alike; how many of either.
+/// alike, and so is what they call, but for panics and the log; how many of either.
 pub(crate) fn in_ram(path: &Path) -> Result<[usize; 2], String> {
     /// Where RAM begins on the chips that have such a program.
     const RAM: u64 = 0x2000_0000;
@@ -173,6 +173,9 @@ pub(crate) fn in_ram(path: &Path) -> Result<[usize; 2], String> {
         "whitted::frame::tone::CURVE",
         "::bathroom::WORDS",
     ];
+    /// What may stay in flash: panics, with what formats their messages, and the log, where a frame has failed.
+    const COLD: [&str; 5] =
+        ["core::option::", "core::result::", "core::panicking::", "core::fmt::", "defmt"];
     with(path, |elf| {
         let (mut found, mut count) = ([false; HOT.len()], [0; 2]);
         for symbol in elf.symbols() {
@@ -182,8 +185,17 @@ pub(crate) fn in_ram(path: &Path) -> Result<[usize; 2], String> {
                 SymbolKind::Data => 1,
                 _ => continue,
             };
-            // From flash, what is in RAM is called by way of a piece of code with its name.
-            if !name.contains("whitted") || name.starts_with("__Thumb") {
+            // From one to the other, functions are called by way of a piece of code with the callee's name.
+            if let Some((kind, callee)) = name.split_once("LongThunk_")
+                && kind.starts_with("__Thumb")
+            {
+                let callee = demangled(callee);
+                if symbol.address() >= RAM && !COLD.iter().any(|cold| callee.contains(cold)) {
+                    return Err(format!("code in RAM calls {callee}, which is in flash"));
+                }
+                continue;
+            }
+            if !name.contains("whitted") {
                 continue;
             }
             if symbol.address() < RAM {

@@ -29,8 +29,10 @@ const USAGE: &str = "\
 cargo xtask setup                          install what the rest needs
 cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
                                            lint, host, nopanic, boards, pico, pico2
-cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
-                                           --check compares with it instead
+cargo xtask bench [--check] [--machine M] [--images]
+                                           count on the emulated boards and write bench/table.md;
+                                           --check compares with it instead; --images renews
+                                           how large programs are and leaves the rest
 cargo xtask bench --stages [SCENE|JOB]… [--machine M] [--flame FILE.svg] [--folded FILE]
                                            what each stage of a frame costs; --flame draws the
                                            calls, --folded writes them as text

@@ -11,11 +11,12 @@ use whitted_demo::rgb565;
 use crate::cores;
 use crate::elf;
 use crate::firmware::TWO_CORES;
-use crate::machine::{self, Record};
+use crate::machine::{self, Log, Record};
 use crate::picture;
 use crate::report::Report;
 use crate::setup;
 use crate::shell::{boards, output};
+use crate::stack;
 
 const TARGET: &str = "thumbv6m-none-eabi";
 /// A display that the board is built for.
@@ -203,10 +204,10 @@ pub(crate) fn check(report: &mut Report) {
         let name = "Pico (rp2040-emu): the second core's stack, bathroom";
         report.check(name, || second_stack(&image));
     }
-    report
-        .check(&format!("Pico on embassy (rp2040py): {small}, and SPI stands still twice"), || {
-            on_embassy(small)
-        });
+    check_embassy(report, small);
+    for (core, board) in BOARDS {
+        stack::check_log(report, core, false, || depths(board));
+    }
     // Of the first display; all or none.
     if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
@@ -219,13 +220,38 @@ pub(crate) fn check(report: &mut Report) {
     }
 }
 
-/// The image on embassy, on the same display: the same bits, after the same faults. Its cycles stand
+/// The boards with this chip, as reports call them and by name.
+pub(crate) const BOARDS: [(&str, &str); 2] =
+    [("RP2040", "pico"), ("RP2040 on embassy", "pico-async")];
+
+/// The stack of a frame at each depth on such a board.
+pub(crate) fn depths(board: &str) -> Result<Log, String> {
+    // The Pico's features as it is built most often; the other has no choice.
+    let features = format!("{},rtt,ram,one-core", DISPLAYS[0].name);
+    let more: &[&str] =
+        if board == "pico" { &["--no-default-features", "--features", &features] } else { &[] };
+    cores::depths(&machine::build_with(&boards().join(board), "depths", TARGET, more)?)
+}
+
+/// The image on embassy, on the same display: the same bits, also after the same faults. Its cycles stand
 /// beside the other's.
-fn on_embassy(job: Job) -> Result<(), String> {
-    let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
-    elf::in_ram(&image)?;
-    println!("     {} cycles", stuck(&image, job, &[3, 400], false)?.cycles);
-    Ok(())
+fn check_embassy(report: &mut Report, small: Job) {
+    let built = report.check("Pico on embassy: the image is built, its code in RAM", || {
+        let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
+        elf::in_ram(&image)?;
+        Ok(image)
+    });
+    let Some(image) = built else { return };
+    report.check(&format!("Pico on embassy (rp2040py): {small}"), || {
+        println!("     {} cycles", stuck(&image, small, &[], false)?.cycles);
+        Ok(())
+    });
+    let tiny = job(SceneName::Limit, TINY);
+    for transfers in TRANSFERS {
+        let name =
+            format!("Pico on embassy (rp2040py): SPI stands still after {transfers:?} bytes");
+        report.check(&name, || stuck(&image, tiny, &transfers, false).map(drop));
+    }
 }
 
 /// SPI stands still, after so many bytes of each try. The log says so each time, and the frame that is then
@@ -238,7 +264,7 @@ fn stuck(image: &Path, job: Job, stick: &[u32], erase: bool) -> Result<Frame, St
     if told != stick.len() {
         return Err(format!("the log is {:?}", frame.log));
     }
-    println!("     {wanted}");
+    println!("     {wanted}: {told} times");
     compare(&order, &frame)?;
     Ok(frame)
 }
@@ -309,8 +335,21 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
         .to_owned();
     let cycles = Record::new(&line).number("cycles")?;
     let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
-    let log = text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
+    let log: Vec<String> =
+        text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
+    check_stack(&log)?;
     Ok(Frame { memory, cycles, line, log })
+}
+
+/// The stack that the firmware tells of each frame is within the bound.
+fn check_stack(log: &[String]) -> Result<(), String> {
+    for line in log {
+        let Some((_, rest)) = line.split_once(" us, stack ") else { continue };
+        let stack = rest.split(' ').next().and_then(|bytes| bytes.parse().ok()).unwrap_or(u64::MAX);
+        println!("     stack {stack} bytes");
+        stack::banded(ArithName::Fixed, stack)?;
+    }
+    Ok(())
 }
 
 /// What the display is to hold: the picture in the upper left corner of black, or just that.

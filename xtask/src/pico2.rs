@@ -6,7 +6,7 @@
 //! release; with one core at work, plain ones do the same, and take their place here. Nor does it
 //! know how registers of the floating-point unit are pushed, so that no image in `f32` runs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rp2350_emu::{Arch, Config, Emulator, EmulatorBuilder};
 use whitted::frame::Sampling;
@@ -14,10 +14,11 @@ use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
 
 use crate::elf;
-use crate::machine;
+use crate::machine::{self, Log};
 use crate::report::Report;
 use crate::setup;
 use crate::shell::boards;
+use crate::stack;
 
 const FLASH: u64 = 0x1000_0000;
 const FLASH_SIZE: usize = 4 << 20;
@@ -41,6 +42,10 @@ cargo xtask emulate pico2 [--scene NAME] [--size WIDTHxHEIGHT] [--cores arm|risc
 /// The kinds of cores.
 const CORES: [(&str, &str); 2] =
     [("arm", "thumbv8m.main-none-eabihf"), ("riscv", "riscv32imac-unknown-none-elf")];
+
+/// Those whose stack is measured at each depth.
+pub(crate) const DEPTHS: [(&str, &str); 2] =
+    [("RP2350, Arm", CORES[0].1), ("RP2350, RISC-V", CORES[1].1)];
 
 /// The command: traces a scene, compares, and says what it took.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
@@ -77,6 +82,8 @@ pub(crate) fn check(report: &mut Report) {
         println!("     {}", trace(target, &job)?);
         Ok(())
     });
+    let (core, target) = DEPTHS[0];
+    stack::check_log(report, core, false, || depths(target));
 }
 
 fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
@@ -85,11 +92,17 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
 
 /// Builds the image, runs it until the frame is traced, compares, and says what it took.
 fn trace(target: &str, job: &Job) -> Result<String, String> {
-    let features = "st7789-240x240,rtt,one-core,fixed";
-    let more = ["--no-default-features", "--features", features];
-    let image = machine::build_with(&boards().join("pico2"), "pico2", target, &more)?;
-    let mut chip = boot(&image, job)?;
+    let image = build("pico2", target)?;
+    let riscv = elf::is_riscv(&image)?;
+    if !riscv {
+        elf::in_ram(&image)?;
+    }
+    let mut chip = boot(&image, Some(job))?;
     let start = wait(&mut chip, true, job)?;
+    if !riscv {
+        // What the frame needs is in RAM.
+        chip.load_flash(&vec![0xff; FLASH_SIZE]);
+    }
     let cycles = wait(&mut chip, false, job)? - start;
 
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
@@ -101,12 +114,35 @@ fn trace(target: &str, job: &Job) -> Result<String, String> {
     }
     let pixel = cycles / (u64::from(job.width) * u64::from(job.height));
     // The emulator takes one cycle for each of RISC-V's instructions.
-    let what = if elf::is_riscv(&image)? { "instructions" } else { "cycles" };
+    let what = if riscv { "instructions" } else { "cycles" };
     Ok(format!("{cycles} {what}, {pixel} a pixel"))
 }
 
-/// The chip with an image that is to trace a job, about to begin it.
-fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
+fn build(bin: &str, target: &str) -> Result<PathBuf, String> {
+    let features = "st7789-240x240,rtt,ram,one-core,fixed";
+    let more = ["--no-default-features", "--features", features];
+    machine::build_with(&boards().join("pico2"), bin, target, &more)
+}
+
+/// The stack of a frame at each depth, on a core of a kind.
+pub(crate) fn depths(target: &str) -> Result<Log, String> {
+    let image = build("depths", target)?;
+    let mut chip = boot(&image, None)?;
+    let (place, _) = elf::symbol(&image, "DEPTHS")?;
+    while chip.core_cycles(0) < PATIENCE {
+        chip.step().map_err(|error| format!("{error:?}"))?;
+        if let Some(log) = stack::left(place as u32, |address| chip.peek(address)) {
+            return Ok(log);
+        }
+        if is_faulty(&chip) {
+            break;
+        }
+    }
+    Err(format!("a fault, or no end, after {} cycles", chip.core_cycles(0)))
+}
+
+/// The chip with an image, which may have to be told what to trace, about to begin it.
+fn boot(image: &Path, job: Option<&Job>) -> Result<Emulator, String> {
     let mut flash = vec![0xff; FLASH_SIZE];
     let riscv = elf::is_riscv(image)?;
     for elf::Segment { address, mut data, is_code, .. } in elf::segments(image)? {
@@ -121,10 +157,12 @@ fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
         let place = flash.get_mut(start..start + data.len()).ok_or("larger than the flash")?;
         place.copy_from_slice(&data);
     }
-    let (order, size) = elf::symbol(image, "ORDER")?;
-    let start = (order - FLASH) as usize;
-    let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
-    flash[start..start + text.len()].copy_from_slice(text.as_bytes());
+    if let Some(job) = job {
+        let (order, size) = elf::symbol(image, "ORDER")?;
+        let start = (order - FLASH) as usize;
+        let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
+        flash[start..start + text.len()].copy_from_slice(text.as_bytes());
+    }
 
     let arch = if riscv { Arch::RiscV } else { Arch::Arm };
     let builder = EmulatorBuilder::new(Config::default()).arch(arch).step_quantum(1);
@@ -194,11 +232,16 @@ fn wait(chip: &mut Emulator, level: bool, job: &Job) -> Result<u64, String> {
         if chip.gpio_read(MARK) == level {
             return Ok(chip.core_cycles(0));
         }
-        if chip.cores.is_arm() && (8..ASIDE).contains(&chip.core(0).regs.pc()) {
+        if is_faulty(chip) {
             return Err(format!("{job}: a fault after {} cycles", chip.core_cycles(0)));
         }
     }
     Err(format!("{job}: no frame"))
+}
+
+/// Whether an Arm core is where no image has code: it has met a fault.
+fn is_faulty(chip: &Emulator) -> bool {
+    chip.cores.is_arm() && (8..ASIDE).contains(&chip.core(0).regs.pc())
 }
 
 #[cfg(test)]
