@@ -20,6 +20,7 @@ mod shell;
 mod stack;
 mod stages;
 mod stm32;
+mod template;
 
 use std::process::ExitCode;
 

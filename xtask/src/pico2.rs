@@ -3,8 +3,9 @@
 //!
 //! `rp2350-emu` runs no image as it is. It needs a boot ROM, which is nobody's to pass on with it: cores
 //! start where the ROM would have led them. Of Armv8-M it knows neither loads that acquire nor stores that
-//! release; with one core at work, plain ones do the same, and take their place here. Nor does it
-//! know how registers of the floating-point unit are pushed, so that no image in `f32` runs.
+//! release; with one core at work, plain ones do the same, and take their place here. Of the floating-point unit it
+//! refuses whatever names registers in pairs, as `vpush {d8}` does though nothing is computed in double precision;
+//! the instructions for single registers, as many, take their place.
 
 use std::path::{Path, PathBuf};
 
@@ -35,8 +36,8 @@ const PATIENCE: u64 = 500_000_000;
 const SMALL: (u16, u16) = (60, 45);
 
 const USAGE: &str = "\
-cargo xtask emulate pico2 [--scene NAME] [--size WIDTHxHEIGHT] [--cores arm|riscv]
-    traces a frame in fixed point on one core; scenes are showcase, limit, raystones, ftb and
+cargo xtask emulate pico2 [--scene NAME] [--size WIDTHxHEIGHT] [--cores arm|riscv] [--arith fixed|f32]
+    traces a frame on one core, in fixed point unless told otherwise, which a RISC-V core can't be; scenes are showcase, limit, raystones, ftb and
     bathroom; the size is 60x45 unless given, at most 240x240";
 
 /// The kinds of cores.
@@ -50,6 +51,7 @@ pub(crate) const DEPTHS: [(&str, &str); 2] =
 /// The command: traces a scene, compares, and says what it took.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let (mut scene, mut size, mut cores) = (SceneName::Limit, SMALL, CORES[0]);
+    let mut arith = ArithName::Fixed;
     let (pairs, rest) = words.as_chunks::<2>();
     if !rest.is_empty() {
         return Err(USAGE.into());
@@ -64,12 +66,18 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
                 let side = |text: &str| text.parse().ok().filter(|n| (1..=240).contains(n));
                 size = (side(width).ok_or(USAGE)?, side(height).ok_or(USAGE)?);
             }
+            "--arith" => {
+                arith = ArithName::ALL.into_iter().find(|a| a.name() == value).ok_or(USAGE)?;
+            }
             "--cores" => cores = *CORES.iter().find(|cores| cores.0 == value).ok_or(USAGE)?,
             _ => return Err(USAGE.into()),
         }
     }
+    if arith == ArithName::F32 && cores != CORES[0] {
+        return Err(USAGE.into());
+    }
     setup::run()?;
-    let took = trace(cores.1, &job(scene, size))?;
+    let took = trace(cores.1, &Job { arith, ..job(scene, size) })?;
     println!("{took}; the pixels sum to the host's");
     Ok(())
 }
@@ -77,11 +85,14 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
 /// The check: an Arm core traces what the host does. A RISC-V core's image takes as long to build again:
 /// it is left to the command.
 pub(crate) fn check(report: &mut Report) {
-    let (job, (name, target)) = (job(SceneName::Limit, SMALL), CORES[0]);
-    report.check(&format!("Pico 2, {name} (rp2350-emu): {job}"), || {
-        println!("     {}", trace(target, &job)?);
-        Ok(())
-    });
+    let (name, target) = CORES[0];
+    for arith in ArithName::ALL {
+        let job = Job { arith, ..job(SceneName::Limit, SMALL) };
+        report.check(&format!("Pico 2, {name} (rp2350-emu): {job}"), || {
+            println!("     {}", trace(target, &job)?);
+            Ok(())
+        });
+    }
     let (core, target) = DEPTHS[0];
     stack::check_log(report, core, false, || depths(target));
 }
@@ -92,7 +103,7 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
 
 /// Builds the image, runs it until the frame is traced, compares, and says what it took.
 fn trace(target: &str, job: &Job) -> Result<String, String> {
-    let image = build("pico2", target)?;
+    let image = build("pico2", target, job.arith)?;
     let riscv = elf::is_riscv(&image)?;
     if !riscv {
         elf::in_ram(&image)?;
@@ -106,7 +117,7 @@ fn trace(target: &str, job: &Job) -> Result<String, String> {
     let cycles = wait(&mut chip, false, job)? - start;
 
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
-    rgb565::draw(job.scene, job.width, job.height, &mut picture);
+    rgb565::draw_in(job.arith, job.scene, job.width, job.height, &mut picture);
     let expected = rgb565::sum(0, &picture);
     let sum = chip.peek(elf::symbol(&image, "TRACED")?.0 as u32);
     if sum != expected {
@@ -118,15 +129,18 @@ fn trace(target: &str, job: &Job) -> Result<String, String> {
     Ok(format!("{cycles} {what}, {pixel} a pixel"))
 }
 
-fn build(bin: &str, target: &str) -> Result<PathBuf, String> {
-    let features = "st7789-240x240,rtt,ram,one-core,fixed";
+fn build(bin: &str, target: &str, arith: ArithName) -> Result<PathBuf, String> {
+    let features = match arith {
+        ArithName::Fixed => "st7789-240x240,rtt,ram,one-core,fixed",
+        ArithName::F32 => "st7789-240x240,rtt,ram,one-core",
+    };
     let more = ["--no-default-features", "--features", features];
     machine::build_with(&boards().join("pico2"), bin, target, &more)
 }
 
 /// The stack of a frame at each depth, on a core of a kind.
 pub(crate) fn depths(target: &str) -> Result<Log, String> {
-    let image = build("depths", target)?;
+    let image = build("depths", target, ArithName::Fixed)?;
     let mut chip = boot(&image, None)?;
     let (place, _) = elf::symbol(&image, "DEPTHS")?;
     while chip.core_cycles(0) < PATIENCE {
@@ -186,7 +200,7 @@ fn boot(image: &Path, job: Option<&Job>) -> Result<Emulator, String> {
 }
 
 /// Puts plain loads and stores, and plain exclusive ones, in the place of those that acquire and
-/// release.
+/// release, and single registers of the floating-point unit in the place of pairs.
 fn make_plain(code: &mut [u8]) {
     let mut at = 0;
     while let Some(bytes) = code.get_mut(at..at + 4) {
@@ -200,8 +214,15 @@ fn make_plain(code: &mut [u8]) {
     }
 }
 
-/// The plain instruction for one that acquires or releases (Armv8-M Architecture Reference Manual).
+/// The plain instruction for one that acquires or releases, or that moves pairs of registers (Armv8-M
+/// Architecture Reference Manual).
 fn plain([first, second]: [u16; 2]) -> Option<[u16; 2]> {
+    // VPUSH, VPOP, VLDM and VSTM, with addresses that rise or fall, and VMOV from or to two core registers: a pair
+    // and its first register have the same number in the instruction, and words are counted.
+    let moves = matches!((first & 0xffc0, first & 0xffe0), (0xec80, _) | (_, 0xed20 | 0xec40));
+    if moves && second & 0x0f00 == 0x0b00 {
+        return Some([first, second ^ 0x0100]);
+    }
     let (n, t, status) = (first & 15, second & 0xf000, second & 15);
     Some(match (first & 0xfff0, second & 0x0ff0, status) {
         // LDAB, LDAH, LDA
@@ -259,5 +280,15 @@ mod tests {
         assert_eq!(plain([0xe8c0, 0x1fe2]), Some([0xe840, 0x1200]));
         // ldrexb r3, [r3]
         assert_eq!(plain([0xe8d3, 0x3f4f]), None);
+    }
+
+    #[test]
+    fn pairs_become_single_registers() {
+        // vpush {d8, d9} and {s16-s19}; vpop {d8-d15} and {s16-s31}; vmov d0, r0, r1 and s0, s1, r0, r1
+        assert_eq!(plain([0xed2d, 0x8b04]), Some([0xed2d, 0x8a04]));
+        assert_eq!(plain([0xecbd, 0x8b10]), Some([0xecbd, 0x8a10]));
+        assert_eq!(plain([0xec41, 0x0b10]), Some([0xec41, 0x0a10]));
+        // vldr d8, [r0]: a pair in one load
+        assert_eq!(plain([0xed90, 0x8b00]), None);
     }
 }
