@@ -172,7 +172,7 @@ pub(crate) fn check(report: &mut Report) {
         let name = format!("Pico with {}: the image is built, its code in RAM", display.name);
         let built = report.check(&name, || {
             let image = build(display)?;
-            let [functions, statics] = elf::in_ram(&image)?;
+            let [functions, statics] = elf::in_ram(&image, ArithName::Fixed)?;
             println!("     {functions} functions and {statics} statics");
             Ok(image)
         });
@@ -240,7 +240,7 @@ pub(crate) fn depths(board: &str) -> Result<Log, String> {
 fn check_embassy(report: &mut Report, small: Job) {
     let built = report.check("Pico on embassy: the image is built, its code in RAM", || {
         let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
-        elf::in_ram(&image)?;
+        elf::in_ram(&image, ArithName::Fixed)?;
         Ok(image)
     });
     let Some(image) = built else { return };
@@ -276,7 +276,7 @@ fn both_cores(job: &Job) -> Result<PathBuf, String> {
     // Where an image is doesn't depend on its features: each is run before the next is built.
     let one = cores::trace(&build_with(&DISPLAYS[0], "ram,one-core")?, job)?;
     let two_image = build_with(&DISPLAYS[0], "rtt,ram")?;
-    elf::in_ram(&two_image)?;
+    elf::in_ram(&two_image, ArithName::Fixed)?;
     let two = cores::trace(&two_image, job)?;
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
     rgb565::draw(job.scene, job.width, job.height, &mut picture);
@@ -337,21 +337,17 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
         .to_owned();
     let cycles = Record::new(&line).number("cycles")?;
     let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
-    let log: Vec<String> =
-        text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
-    check_stack(&log)?;
+    let log = text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
+    check_stack(image, Record::new(&line).number("stack_free")?)?;
     Ok(Frame { memory, cycles, line, log })
 }
 
-/// The stack that the firmware tells of each frame is within the bound.
-fn check_stack(log: &[String]) -> Result<(), String> {
-    for line in log {
-        let Some((_, rest)) = line.split_once(" us, stack ") else { continue };
-        let stack = rest.split(' ').next().and_then(|bytes| bytes.parse().ok()).unwrap_or(u64::MAX);
-        println!("     stack {stack} bytes");
-        stack::banded(ArithName::Fixed, stack)?;
-    }
-    Ok(())
+/// The whole firmware's stack, of which so many bytes have never been touched, is within the bound.
+fn check_stack(image: &Path, free: u64) -> Result<(), String> {
+    let [top, bottom] = ["_stack_start", "__sheap"].map(|name| elf::symbol(image, name));
+    let used = (top?.0 - bottom?.0).saturating_sub(free);
+    println!("     stack {used} bytes");
+    stack::firmware(ArithName::Fixed, used)
 }
 
 /// What the display is to hold: the picture in the upper left corner of black, or just that.

@@ -5,7 +5,8 @@
 //! start where the ROM would have led them. Of Armv8-M it knows neither loads that acquire nor stores that
 //! release; with one core at work, plain ones do the same, and take their place here. Of the floating-point unit it
 //! refuses whatever names registers in pairs, as `vpush {d8}` does though nothing is computed in double precision;
-//! the instructions for single registers, as many, take their place.
+//! the instructions for single registers, as many, take their place. And it reads the bits of `vsel`, `vmaxnm` and
+//! `vminnm` in another order than Arm writes them: here they are written in its own.
 
 use std::path::{Path, PathBuf};
 
@@ -106,7 +107,7 @@ fn trace(target: &str, job: &Job) -> Result<String, String> {
     let image = build("pico2", target, job.arith)?;
     let riscv = elf::is_riscv(&image)?;
     if !riscv {
-        elf::in_ram(&image)?;
+        elf::in_ram(&image, job.arith)?;
     }
     let mut chip = boot(&image, Some(job))?;
     let start = wait(&mut chip, true, job)?;
@@ -214,7 +215,7 @@ fn make_plain(code: &mut [u8]) {
     }
 }
 
-/// The plain instruction for one that acquires or releases, or that moves pairs of registers (Armv8-M
+/// What the emulator takes for one that acquires or releases, moves pairs of registers, or selects (Armv8-M
 /// Architecture Reference Manual).
 fn plain([first, second]: [u16; 2]) -> Option<[u16; 2]> {
     // VPUSH, VPOP, VLDM and VSTM, with addresses that rise or fall, and VMOV from or to two core registers: a pair
@@ -222,6 +223,11 @@ fn plain([first, second]: [u16; 2]) -> Option<[u16; 2]> {
     let moves = matches!((first & 0xffc0, first & 0xffe0), (0xec80, _) | (_, 0xed20 | 0xec40));
     if moves && second & 0x0f00 == 0x0b00 {
         return Some([first, second ^ 0x0100]);
+    }
+    // VSEL, VMAXNM and VMINNM: the emulator looks for the target register's lowest bit where the condition ends.
+    if first & 0xff00 == 0xfe00 && second & 0x0f10 == 0x0a00 {
+        let (low, condition) = (first >> 6 & 1, first >> 4 & 3);
+        return Some([first & 0xff8f | condition << 5 | low << 4, second]);
     }
     let (n, t, status) = (first & 15, second & 0xf000, second & 15);
     Some(match (first & 0xfff0, second & 0x0ff0, status) {
@@ -283,11 +289,14 @@ mod tests {
     }
 
     #[test]
-    fn pairs_become_single_registers() {
+    fn the_floating_point_unit_s_become_the_emulator_s() {
         // vpush {d8, d9} and {s16-s19}; vpop {d8-d15} and {s16-s31}; vmov d0, r0, r1 and s0, s1, r0, r1
         assert_eq!(plain([0xed2d, 0x8b04]), Some([0xed2d, 0x8a04]));
         assert_eq!(plain([0xecbd, 0x8b10]), Some([0xecbd, 0x8a10]));
         assert_eq!(plain([0xec41, 0x0b10]), Some([0xec41, 0x0a10]));
+        // vselgt.f32 s0, s1, s2 and s1, s1, s2
+        assert_eq!(plain([0xfe30, 0x0a81]), Some([0xfe60, 0x0a81]));
+        assert_eq!(plain([0xfe70, 0x0a81]), Some([0xfe70, 0x0a81]));
         // vldr d8, [r0]: a pair in one load
         assert_eq!(plain([0xed90, 0x8b00]), None);
     }

@@ -27,6 +27,9 @@ const PIXEL: u64 = 3;
 /// may make it in one place and move it to another.
 const GENERATION: u64 = 96;
 
+/// Bytes of stack that a firmware with a display takes at most beside its frames.
+const BOARD: u64 = 1_024;
+
 /// Bytes of stack that a frame takes at most beside generations, row and samples: what doesn't
 /// depend on the depth of the tracer's memory, its calls, and the renderer.
 const fn calls(arith: ArithName) -> u64 {
@@ -170,6 +173,12 @@ fn within(stack: u64, bound: u64) -> Result<u64, String> {
 /// the bound.
 pub(crate) fn banded(arith: ArithName, stack: u64) -> Result<(), String> {
     within(stack, bound(arith, MAX_DEPTH, 0, 0)).map(drop)
+}
+
+/// So is a firmware's whole stack, from reset to the end of such a frame, with what pins, clocks, the display's driver
+/// and sending take beside.
+pub(crate) fn firmware(arith: ArithName, stack: u64) -> Result<(), String> {
+    within(stack, bound(arith, MAX_DEPTH, 0, 0) + BOARD).map(drop)
 }
 
 /// The frames of a log are within the bound.
