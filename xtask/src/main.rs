@@ -29,7 +29,7 @@ use report::Report;
 const USAGE: &str = "\
 cargo xtask setup                          install what the rest needs
 cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
-                                           lint, host, nopanic, boards, pico, pico2
+                                           lint, template, host, nopanic, boards, pico, pico2
 cargo xtask bench [--check] [--machine M] [--images]
                                            count on the emulated boards and write bench/table.md;
                                            --check compares with it instead; --images renews
@@ -94,8 +94,9 @@ const HOST: [Group; 4] = [
 ];
 
 /// What is built in the boards' workspace. A group may have a part in either.
-const BOARDS: [Group; 4] = [
+const BOARDS: [Group; 5] = [
     Group { name: "lint", check: lint::boards },
+    Group { name: "template", check: template::check },
     Group { name: "host", check: lint::boards_tests },
     Group { name: "nopanic", check: nopanic::check },
     Group { name: "boards", check: firmware::check },

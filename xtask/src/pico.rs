@@ -17,7 +17,6 @@ use crate::report::Report;
 use crate::setup;
 use crate::shell::{boards, output};
 use crate::stack;
-use crate::template;
 
 const TARGET: &str = "thumbv6m-none-eabi";
 /// A display that the board is built for.
@@ -209,7 +208,6 @@ pub(crate) fn check(report: &mut Report) {
     for (core, board) in BOARDS {
         stack::check_log(report, core, false, || depths(board));
     }
-    template::check(report);
     // Of the first display; all or none.
     if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
