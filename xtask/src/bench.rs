@@ -12,6 +12,7 @@ use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SAMPLINGS, SceneName};
 use whitted_demo::rebuild::SHAPES;
 
+use crate::elf;
 use crate::firmware::{rebuilt, result};
 use crate::machine::{MACHINES, Machine, Record};
 use crate::pico;
@@ -29,16 +30,19 @@ pub(crate) struct Options {
     check: bool,
     /// Only this machine of QEMU, without writing the table.
     machine: Option<String>,
+    /// Only how large programs are: the rest of the table stays as it is.
+    images: bool,
 }
 
 impl Options {
     /// From the command line.
     pub(crate) fn read(words: &[&str]) -> Result<Self, String> {
-        let mut options = Self { check: false, machine: None };
+        let mut options = Self { check: false, machine: None, images: false };
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match (word, words.as_slice().first()) {
                 ("--check", _) => options.check = true,
+                ("--images", _) => options.images = true,
                 ("--machine", Some(&name)) if MACHINES.iter().any(|m| m.machine == name) => {
                     options.machine = Some(name.into());
                     words.next();
@@ -46,7 +50,7 @@ impl Options {
                 _ => {
                     let names: Vec<_> = MACHINES.iter().map(|m| m.machine).collect();
                     return Err(format!(
-                        "bench takes --check, and --machine with one of {}",
+                        "bench takes --check, --images, and --machine with one of {}",
                         names.join(", ")
                     ));
                 }
@@ -114,8 +118,10 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     if options.machine.is_none() {
         images::kernels(&mut images)?;
         images::others(&mut images)?;
-        println!("RP2040 (rp2040py) …");
-        cycles(&mut rp2040)?;
+        if !options.images {
+            println!("RP2040 (rp2040py) …");
+            cycles(&mut rp2040)?;
+        }
     }
     let mut seen = Vec::new();
     for machine in &MACHINES {
@@ -124,18 +130,23 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         }
         println!("{} ({}) …", machine.core, machine.machine);
         let firmware = machine.build()?;
-        let memory = count(machine, &firmware, &mut frames, &mut rebuilds)?;
+        if !options.images {
+            count(machine, &firmware, &mut frames, &mut rebuilds)?;
+        }
         if !seen.contains(&firmware) {
             let name = format!("firmware {}, all scenes in both", machine.board);
+            let memory = elf::static_bytes(&firmware)?;
             images::image(&mut images, &name, machine.target, &firmware, Some(memory))?;
             seen.push(firmware);
         }
     }
     let mut worse = Vec::new();
-    let mut text = HEADER.to_owned();
+    let mut text = if options.images { String::new() } else { HEADER.to_owned() };
     for table in [&mut frames, &mut rp2040, &mut rebuilds, &mut images] {
-        compare(table, &before, &mut worse);
-        text.push_str(&table.to_markdown());
+        if !options.images || table.title == IMAGES.title {
+            compare(table, &before, &mut worse);
+            text.push_str(&table.to_markdown());
+        }
     }
     println!("{text}");
     if options.check {
@@ -147,6 +158,10 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         };
     }
     if options.machine.is_none() {
+        if options.images {
+            let whole = std::fs::read_to_string(&path).unwrap_or_default();
+            text = renewed(&whole, IMAGES.title, &text);
+        }
         std::fs::create_dir_all(root().join("bench"))
             .and_then(|()| std::fs::write(&path, text))
             .map_err(|error| format!("bench/table.md: {error}"))?;
@@ -238,13 +253,13 @@ fn cycles(table: &mut Table) -> Result<(), String> {
     Ok(())
 }
 
-/// Runs a machine's jobs; returns the bytes of static RAM.
+/// Runs a machine's jobs.
 fn count(
     machine: &Machine,
     firmware: &Path,
     table: &mut Table,
     rebuilds: &mut Table,
-) -> Result<u64, String> {
+) -> Result<(), String> {
     let dump = firmware.with_extension("ppm");
     let jobs = jobs(machine);
     let mut words: Vec<String> = jobs.iter().map(Job::to_string).collect();
@@ -263,13 +278,10 @@ fn count(
             cell("scratch")?,
         ]);
     }
-    let mut memory = 0;
     for job in &jobs {
-        let record = result(&log, job)?;
-        memory = record.number("static")?;
-        table.rows.push(frame(machine, job, record)?);
+        table.rows.push(frame(machine, job, result(&log, job)?)?);
     }
-    Ok(memory)
+    Ok(())
 }
 
 fn frame(machine: &Machine, job: &Job, record: Record<'_>) -> Result<Vec<String>, String> {
@@ -307,6 +319,14 @@ fn committed(path: &Path) -> String {
         Some(output) => String::from_utf8_lossy(&output.stdout).into_owned(),
         None => std::fs::read_to_string(path).unwrap_or_default(),
     }
+}
+
+/// The whole with one table anew, from its title to the next one's or to the end.
+fn renewed(whole: &str, title: &str, table: &str) -> String {
+    let title = format!("\n## {title}\n");
+    let (before, rest) = whole.split_once(&title).unwrap_or((whole, ""));
+    let after = rest.find("\n## ").and_then(|at| rest.get(at..)).unwrap_or_default();
+    format!("{before}{table}{after}")
 }
 
 /// Fills in the changes, and names what has grown worse by more than the tolerance.
@@ -360,11 +380,19 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{FRAMES, compare};
+    use super::{FRAMES, compare, renewed};
 
     fn table(instructions: &str) -> super::Table {
         let cells = ["Cortex-M0", "limit", "fixed", "8×8", instructions, "", "1", "1", "9"];
         super::Table { rows: vec![cells.map(str::to_owned).to_vec()], ..FRAMES }
+    }
+
+    #[test]
+    fn one_table_is_renewed() {
+        let whole = "head\n\n## A\n\n|1|\n\n## B\n\n|2|\n";
+        assert_eq!(renewed(whole, "A", "\n## A\n\n|3|\n"), whole.replace('1', "3"));
+        assert_eq!(renewed(whole, "B", "\n## B\n\n|3|\n"), whole.replace('2', "3"));
+        assert_eq!(renewed(whole, "C", "\n## C\n"), format!("{whole}\n## C\n"));
     }
 
     #[test]

@@ -8,8 +8,10 @@ use rp2040_emu::{Config, Emulator};
 use whitted_demo::job::Job;
 
 use crate::elf;
+use crate::machine::Log;
 use crate::setup;
 use crate::shell::{self, boards};
+use crate::stack;
 
 const FLASH: u64 = 0x1000_0000;
 const FLASH_SIZE: usize = 2 << 20;
@@ -36,7 +38,7 @@ pub(crate) struct Frame {
 /// Runs an image, which has its code in RAM, from its reset vector until the frame is traced. In the meantime the
 /// flash is empty: whatever the frame still needed of it would be missed.
 pub(crate) fn trace(image: &Path, job: &Job) -> Result<Frame, String> {
-    let mut chip = boot(image, job)?;
+    let mut chip = boot(image, Some(job))?;
     let [bottom, top] = ["_second_stack_end", "_second_stack_start"]
         .map(|name| elf::symbol(image, name).map(|(address, _)| address));
     let (bottom, top) = (bottom?, top?);
@@ -59,7 +61,7 @@ pub(crate) fn follow(
     job: &Job,
     mut each: impl FnMut(u32, u64),
 ) -> Result<(), String> {
-    let mut chip = boot(image, job)?;
+    let mut chip = boot(image, Some(job))?;
     // One instruction at a time.
     chip.step_quantum = 1;
     let before = wait(&mut chip, true, job, |_| {})?[0];
@@ -74,8 +76,21 @@ pub(crate) fn follow(
     Ok(())
 }
 
-/// The chip with an image that is to trace a job, at its reset vector.
-fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
+/// Runs an image that leaves the stack of a frame at each depth in its memory.
+pub(crate) fn depths(image: &Path) -> Result<Log, String> {
+    let mut chip = boot(image, None)?;
+    let (place, _) = elf::symbol(image, "DEPTHS")?;
+    for _ in 0..PATIENCE {
+        chip.step().map_err(|error| error.to_string())?;
+        if let Some(log) = stack::left(place as u32, |address| chip.peek(address)) {
+            return Ok(log);
+        }
+    }
+    Err("the frames don't end".into())
+}
+
+/// The chip with an image, which may have to be told what to trace, at its reset vector.
+fn boot(image: &Path, job: Option<&Job>) -> Result<Emulator, String> {
     let rom = image.with_extension("rom");
     let python = setup::python()?;
     shell::run(Command::new(python).arg("-B").arg(boards().join("pico/emulate/rom.py")).arg(&rom))?;
@@ -87,10 +102,12 @@ fn boot(image: &Path, job: &Job) -> Result<Emulator, String> {
         let place = flash.get_mut(start..start + data.len()).ok_or("larger than the flash")?;
         place.copy_from_slice(&data);
     }
-    let (order, size) = elf::symbol(image, "ORDER")?;
-    let start = (order - FLASH) as usize;
-    let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
-    flash[start..start + text.len()].copy_from_slice(text.as_bytes());
+    if let Some(job) = job {
+        let (order, size) = elf::symbol(image, "ORDER")?;
+        let start = (order - FLASH) as usize;
+        let text = format!("{:width$}", format!("{job} trace"), width = size as usize);
+        flash[start..start + text.len()].copy_from_slice(text.as_bytes());
+    }
 
     let mut chip = Emulator::new(Config::default());
     chip.load_bootrom(&rom);

@@ -6,6 +6,7 @@ use addr2line::Loader;
 use object::elf::{PF_X, PT_LOAD};
 use object::read::elf::{ElfFile32, ProgramHeader};
 use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SymbolKind};
+use whitted_demo::job::ArithName;
 
 /// Bytes of a program.
 #[derive(Clone, Copy, Debug, Default)]
@@ -161,20 +162,31 @@ pub(crate) fn symbol(path: &Path, name: &str) -> Result<(u64, u64), String> {
 }
 
 /// What a program with `boards/ram.x` has of the library and the scenes is in RAM, functions and statics
-/// alike; how many of either.
-pub(crate) fn in_ram(path: &Path) -> Result<[usize; 2], String> {
+/// alike, and so is what they call, but for panics and the log; how many of either. It draws in an arithmetic.
+pub(crate) fn in_ram(path: &Path, arith: ArithName) -> Result<[usize; 2], String> {
     /// Where RAM begins on the chips that have such a program.
     const RAM: u64 = 0x2000_0000;
-    /// Some of what has to be there: code, tables, a tree.
+    /// Some of what has to be there: code, a table, a tree; the tables of fixed point.
     const HOT: [&str; 5] = [
         "whitted::trace::",
-        "whitted::math::root::RECIPROCAL",
-        "whitted::math::root::RECIPROCAL_ROOT",
         "whitted::frame::tone::CURVE",
         "::bathroom::WORDS",
+        "whitted::math::root::RECIPROCAL",
+        "whitted::math::root::RECIPROCAL_ROOT",
     ];
+    /// What may stay in flash: panics, with what formats their messages, and the log, where a frame has failed;
+    /// embassy, and the bus that is part of it.
+    const COLD: [&str; 6] = [
+        "core::option::",
+        "core::result::",
+        "core::panicking::",
+        "core::fmt::",
+        "defmt",
+        "pico_async::bus",
+    ];
+    let hot = if arith == ArithName::Fixed { &HOT[..] } else { &HOT[..3] };
     with(path, |elf| {
-        let (mut found, mut count) = ([false; HOT.len()], [0; 2]);
+        let (mut found, mut count) = (vec![false; hot.len()], [0; 2]);
         for symbol in elf.symbols() {
             let name = name(symbol.name());
             let kind = match symbol.kind() {
@@ -182,17 +194,26 @@ pub(crate) fn in_ram(path: &Path) -> Result<[usize; 2], String> {
                 SymbolKind::Data => 1,
                 _ => continue,
             };
-            // From flash, what is in RAM is called by way of a piece of code with its name.
-            if !name.contains("whitted") || name.starts_with("__Thumb") {
+            // From one to the other, functions are called by way of a piece of code with the callee's name.
+            if let Some((kind, callee)) = name.split_once("LongThunk_")
+                && kind.starts_with("__Thumb")
+            {
+                let callee = demangled(callee);
+                if symbol.address() >= RAM && !COLD.iter().any(|cold| callee.contains(cold)) {
+                    return Err(format!("code in RAM calls {callee}, which is in flash"));
+                }
+                continue;
+            }
+            if !name.contains("whitted") {
                 continue;
             }
             if symbol.address() < RAM {
                 return Err(format!("{name} is at {:#x}", symbol.address()));
             }
             count[kind] += 1;
-            HOT.iter().zip(&mut found).for_each(|(hot, found)| *found |= name.contains(hot));
+            hot.iter().zip(&mut found).for_each(|(hot, found)| *found |= name.contains(hot));
         }
-        match HOT.iter().zip(found).find(|(_, found)| !found) {
+        match hot.iter().zip(found).find(|(_, found)| !found) {
             Some((hot, _)) => Err(format!("no {hot}")),
             None => Ok(count),
         }

@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use whitted_demo::job::{ArithName, Job};
+use whitted_demo::job::Job;
 
 use crate::shell::{boards, cargo, output};
 
@@ -260,11 +260,7 @@ impl Machine {
     pub(crate) fn carries(&self, job: &Job) -> bool {
         match self.carries {
             Carries::All => true,
-            // None of these has a floating-point unit.
-            Carries::Few => {
-                let soft = job.arith == ArithName::F32 && job.scene.is_soft_where_roomy();
-                !job.scene.is_for_counting() && !soft
-            }
+            Carries::Few => !job.scene.is_for_counting(),
             Carries::Rest => job.scene.is_for_counting(),
         }
     }

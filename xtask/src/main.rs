@@ -20,6 +20,7 @@ mod shell;
 mod stack;
 mod stages;
 mod stm32;
+mod template;
 
 use std::process::ExitCode;
 
@@ -28,9 +29,11 @@ use report::Report;
 const USAGE: &str = "\
 cargo xtask setup                          install what the rest needs
 cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
-                                           lint, host, nopanic, boards, pico, pico2
-cargo xtask bench [--check] [--machine M]  count on the emulated boards and write bench/table.md;
-                                           --check compares with it instead
+                                           lint, template, host, nopanic, boards, pico, pico2
+cargo xtask bench [--check] [--machine M] [--images]
+                                           count on the emulated boards and write bench/table.md;
+                                           --check compares with it instead; --images renews
+                                           how large programs are and leaves the rest
 cargo xtask bench --stages [SCENE|JOB]… [--machine M] [--flame FILE.svg] [--folded FILE]
                                            what each stage of a frame costs; --flame draws the
                                            calls, --folded writes them as text
@@ -91,8 +94,9 @@ const HOST: [Group; 4] = [
 ];
 
 /// What is built in the boards' workspace. A group may have a part in either.
-const BOARDS: [Group; 4] = [
+const BOARDS: [Group; 5] = [
     Group { name: "lint", check: lint::boards },
+    Group { name: "template", check: template::check },
     Group { name: "host", check: lint::boards_tests },
     Group { name: "nopanic", check: nopanic::check },
     Group { name: "boards", check: firmware::check },

@@ -11,11 +11,12 @@ use whitted_demo::rgb565;
 use crate::cores;
 use crate::elf;
 use crate::firmware::TWO_CORES;
-use crate::machine::{self, Record};
+use crate::machine::{self, Log, Record};
 use crate::picture;
 use crate::report::Report;
 use crate::setup;
 use crate::shell::{boards, output};
+use crate::stack;
 
 const TARGET: &str = "thumbv6m-none-eabi";
 /// A display that the board is built for.
@@ -170,7 +171,7 @@ pub(crate) fn check(report: &mut Report) {
         let name = format!("Pico with {}: the image is built, its code in RAM", display.name);
         let built = report.check(&name, || {
             let image = build(display)?;
-            let [functions, statics] = elf::in_ram(&image)?;
+            let [functions, statics] = elf::in_ram(&image, ArithName::Fixed)?;
             println!("     {functions} functions and {statics} statics");
             Ok(image)
         });
@@ -203,10 +204,10 @@ pub(crate) fn check(report: &mut Report) {
         let name = "Pico (rp2040-emu): the second core's stack, bathroom";
         report.check(name, || second_stack(&image));
     }
-    report
-        .check(&format!("Pico on embassy (rp2040py): {small}, and SPI stands still twice"), || {
-            on_embassy(small)
-        });
+    check_embassy(report, small);
+    for (core, board) in BOARDS {
+        stack::check_log(report, core, false, || depths(board));
+    }
     // Of the first display; all or none.
     if let &[bands, _, trace, _] = cycles.as_slice() {
         report.check("Pico: DMA sends while the core traces", || {
@@ -219,13 +220,38 @@ pub(crate) fn check(report: &mut Report) {
     }
 }
 
-/// The image on embassy, on the same display: the same bits, after the same faults. Its cycles stand
+/// The boards with this chip, as reports call them and by name.
+pub(crate) const BOARDS: [(&str, &str); 2] =
+    [("RP2040", "pico"), ("RP2040 on embassy", "pico-async")];
+
+/// The stack of a frame at each depth on such a board.
+pub(crate) fn depths(board: &str) -> Result<Log, String> {
+    // The Pico's features as it is built most often; the other has no choice.
+    let features = format!("{},rtt,ram,one-core", DISPLAYS[0].name);
+    let more: &[&str] =
+        if board == "pico" { &["--no-default-features", "--features", &features] } else { &[] };
+    cores::depths(&machine::build_with(&boards().join(board), "depths", TARGET, more)?)
+}
+
+/// The image on embassy, on the same display: the same bits, also after the same faults. Its cycles stand
 /// beside the other's.
-fn on_embassy(job: Job) -> Result<(), String> {
-    let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
-    elf::in_ram(&image)?;
-    println!("     {} cycles", stuck(&image, job, &[3, 400], false)?.cycles);
-    Ok(())
+fn check_embassy(report: &mut Report, small: Job) {
+    let built = report.check("Pico on embassy: the image is built, its code in RAM", || {
+        let image = machine::build_with(&boards().join("pico-async"), "pico-async", TARGET, &[])?;
+        elf::in_ram(&image, ArithName::Fixed)?;
+        Ok(image)
+    });
+    let Some(image) = built else { return };
+    report.check(&format!("Pico on embassy (rp2040py): {small}"), || {
+        println!("     {} cycles", stuck(&image, small, &[], false)?.cycles);
+        Ok(())
+    });
+    let tiny = job(SceneName::Limit, TINY);
+    for transfers in TRANSFERS {
+        let name =
+            format!("Pico on embassy (rp2040py): SPI stands still after {transfers:?} bytes");
+        report.check(&name, || stuck(&image, tiny, &transfers, false).map(drop));
+    }
 }
 
 /// SPI stands still, after so many bytes of each try. The log says so each time, and the frame that is then
@@ -238,7 +264,7 @@ fn stuck(image: &Path, job: Job, stick: &[u32], erase: bool) -> Result<Frame, St
     if told != stick.len() {
         return Err(format!("the log is {:?}", frame.log));
     }
-    println!("     {wanted}");
+    println!("     {wanted}: {told} times");
     compare(&order, &frame)?;
     Ok(frame)
 }
@@ -248,7 +274,7 @@ fn both_cores(job: &Job) -> Result<PathBuf, String> {
     // Where an image is doesn't depend on its features: each is run before the next is built.
     let one = cores::trace(&build_with(&DISPLAYS[0], "ram,one-core")?, job)?;
     let two_image = build_with(&DISPLAYS[0], "rtt,ram")?;
-    elf::in_ram(&two_image)?;
+    elf::in_ram(&two_image, ArithName::Fixed)?;
     let two = cores::trace(&two_image, job)?;
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
     rgb565::draw(job.scene, job.width, job.height, &mut picture);
@@ -310,7 +336,16 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     let cycles = Record::new(&line).number("cycles")?;
     let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
     let log = text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
+    check_stack(image, Record::new(&line).number("stack_free")?)?;
     Ok(Frame { memory, cycles, line, log })
+}
+
+/// The whole firmware's stack, of which so many bytes have never been touched, is within the bound.
+fn check_stack(image: &Path, free: u64) -> Result<(), String> {
+    let [top, bottom] = ["_stack_start", "__sheap"].map(|name| elf::symbol(image, name));
+    let used = (top?.0 - bottom?.0).saturating_sub(free);
+    println!("     stack {used} bytes");
+    stack::firmware(ArithName::Fixed, used)
 }
 
 /// What the display is to hold: the picture in the upper left corner of black, or just that.

@@ -9,11 +9,14 @@ use whitted::frame::Sampling;
 use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
 
-use crate::machine;
+use crate::machine::{self, Log};
 use crate::report::Report;
 use crate::shell::{boards, output};
+use crate::stack;
 
 const BOARD: &str = "stm32f4";
+/// As reports call it.
+pub(crate) const CORE: &str = "STM32F405";
 const TARGET: &str = "thumbv7em-none-eabihf";
 /// Seconds.
 const PATIENCE: &str = "240";
@@ -39,7 +42,9 @@ const PIXEL_FORMAT: u8 = 0x3A;
 
 /// Builds the image, runs it, and compares what the display gets with the host's pictures.
 pub(crate) fn check(report: &mut Report) {
-    let Some(image) = report.check("STM32F405: the image is built", build) else { return };
+    let Some(image) = report.check("STM32F405: the image is built", || build(BOARD)) else {
+        return;
+    };
     for arith in ArithName::ALL {
         let (width, height) = SIZE;
         let scene = SceneName::Limit;
@@ -47,11 +52,30 @@ pub(crate) fn check(report: &mut Report) {
         let name = format!("STM32F405 (netduinoplus2): {job}, the display gets the host's picture");
         report.check(&name, || compare(&job, &emulate(&image, &job)?));
     }
+    stack::check_log(report, CORE, true, depths);
 }
 
-fn build() -> Result<PathBuf, String> {
+fn build(bin: &str) -> Result<PathBuf, String> {
     let more = ["--no-default-features", "--features", "f405"];
-    machine::build_with(&boards().join(BOARD), BOARD, TARGET, &more)
+    machine::build_with(&boards().join(BOARD), bin, TARGET, &more)
+}
+
+/// The emulator, to be run with an image, and with more for it to know.
+fn emulator(image: &Path, semihosting: &str, more: &[&str]) -> Command {
+    let mut qemu = Command::new("timeout");
+    qemu.args([PATIENCE, "qemu-system-arm", "-machine", "netduinoplus2", "-display", "none"]);
+    qemu.args(["-icount", "shift=0", "-serial", "none", "-monitor", "none"]);
+    qemu.args([
+        "-semihosting-config",
+        &format!("enable=on,target=native,arg=firmware{semihosting}"),
+    ]);
+    qemu.args(more).arg("-kernel").arg(image);
+    qemu
+}
+
+/// The stack of a frame at each depth.
+pub(crate) fn depths() -> Result<Log, String> {
+    Ok(Log::new(&output(&mut emulator(&build("depths")?, "", &[]))?))
 }
 
 /// Runs the image on a job; what the display holds then.
@@ -59,14 +83,12 @@ fn emulate(image: &Path, job: &Job) -> Result<Vec<u8>, String> {
     let trace = image.with_extension("trace");
     // Writes from before prove nothing.
     let _ = std::fs::remove_file(&trace);
-    let mut qemu = Command::new("timeout");
-    qemu.args([PATIENCE, "qemu-system-arm", "-machine", "netduinoplus2", "-display", "none"]);
-    qemu.args(["-icount", "shift=0", "-serial", "none", "-monitor", "none"]);
-    qemu.arg("-semihosting-config");
-    qemu.arg(format!("enable=on,target=native,arg=firmware,arg={job}"));
-    qemu.arg("-trace").arg(format!("memory_region_ops_write,file={}", trace.display()));
-    let said = output(qemu.arg("-kernel").arg(image))?;
+    let events = format!("memory_region_ops_write,file={}", trace.display());
+    let said = output(&mut emulator(image, &format!(",arg={job}"), &["-trace", &events]))?;
     println!("     {}", said.trim());
+    let log = Log::new(&said);
+    let record = log.records("frame").next().ok_or("it says nothing of a frame")?;
+    stack::banded(job.arith, record.number("stack")?)?;
     let file = std::fs::File::open(&trace).map_err(|e| format!("{}: {e}", trace.display()))?;
     let mut panel = Panel::new();
     for line in BufReader::new(file).lines() {

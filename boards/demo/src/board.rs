@@ -100,8 +100,9 @@ impl Board {
 
     /// Draws the frame of [`depths`] with memory for each depth, and prints a line `depth …` about
     /// each: the bytes of `Work` (`memory`), and of stack. In `f32` too, where the core computes it.
+    #[inline]
     pub fn depths(&mut self) {
-        /// Each arithmetic is eight copies of the tracer, which take long to build.
+        /// Each arithmetic is eight copies of the tracer.
         const HERE: &[ArithName] =
             if cfg!(target_abi = "eabihf") { &ArithName::ALL } else { &[ArithName::Fixed] };
         for &arith in HERE {

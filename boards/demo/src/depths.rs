@@ -16,6 +16,10 @@ pub const ROW: usize = SIZE.0 as usize * size_of::<Rgb888>();
 /// The deepest.
 pub const DEEPEST: usize = 8;
 
+/// What a board without semihosting leaves in its memory about a depth: the depth itself, bytes of the
+/// tracer's memory, bytes of stack, and the checksum's lower and upper half.
+pub type Words = [u32; 5];
+
 /// A depth.
 #[derive(Clone, Copy)]
 pub struct Depth {
@@ -29,6 +33,7 @@ pub struct Depth {
 
 /// All depths in an arithmetic.
 #[must_use]
+#[cfg_attr(target_os = "none", inline)]
 pub fn all(arith: ArithName) -> [Depth; DEEPEST] {
     match arith {
         ArithName::Fixed => of::<Fixed>(),

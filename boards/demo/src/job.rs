@@ -52,12 +52,6 @@ impl SceneName {
         matches!(self, Self::Gfxcat | Self::Spheres64 | Self::Bathroom)
     }
 
-    /// Whether Arm cores that compute `f32` in software have it in `f32` only with flash to spare, too.
-    #[must_use]
-    pub const fn is_soft_where_roomy(self) -> bool {
-        matches!(self, Self::Ftb)
-    }
-
     /// The name as written in a job.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -202,16 +196,12 @@ impl core::error::Error for JobError {}
 /// Whether `f32` is computed in software, on an Arm core.
 const SOFT: bool = cfg!(all(target_arch = "arm", target_abi = "eabi"));
 
-/// Whether there is flash to spare.
-const ROOMY: bool = cfg!(any(feature = "counted", not(target_os = "none")));
-
 /// Whether a scene is there in an arithmetic; on a PC all are.
 const fn carried(scene: SceneName, arith: ArithName) -> bool {
-    if scene.is_for_counting() && !ROOMY {
+    if scene.is_for_counting() && !cfg!(any(feature = "counted", not(target_os = "none"))) {
         return false;
     }
-    let soft = SOFT && matches!(arith, ArithName::F32);
-    !(soft && (scene.is_soft_in_fixed_alone() || scene.is_soft_where_roomy() && !ROOMY))
+    !(SOFT && matches!(arith, ArithName::F32) && scene.is_soft_in_fixed_alone())
 }
 
 /// Whether the samplings are there in an arithmetic: not where `f32` is computed in software, since the

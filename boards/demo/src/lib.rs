@@ -1,6 +1,9 @@
 //! What every firmware of this project shares: the scenes, the frame loop, checksums, and, on a
 //! chip, counting and reporting. The host uses the same scenes and the same frame loop to know
 //! what a board has to print, so all but the module `board` runs anywhere.
+//!
+//! A function that draws any scene is a copy of the tracer for each. Those that only some firmware calls are
+//! `inline` on chips, so that they are compiled where they are called: nobody waits for them in vain.
 #![no_std]
 
 pub mod checksum;

@@ -38,6 +38,7 @@ pub fn sum(sum: u32, bytes: &[u8]) -> u32 {
 ///
 /// # Panics
 /// If a side is 0.
+#[cfg_attr(target_os = "none", inline)]
 pub fn draw(scene: SceneName, width: u16, height: u16, bytes: &mut [u8]) {
     draw_in(ArithName::Fixed, scene, width, height, bytes);
 }
@@ -46,6 +47,7 @@ pub fn draw(scene: SceneName, width: u16, height: u16, bytes: &mut [u8]) {
 ///
 /// # Panics
 /// If a side is 0.
+#[cfg_attr(target_os = "none", inline)]
 pub fn draw_in(arith: ArithName, scene: SceneName, width: u16, height: u16, bytes: &mut [u8]) {
     let view = Bytes { width, height, bytes };
     match arith {

@@ -6,11 +6,6 @@
 mod bathroom {
     include!(concat!(env!("OUT_DIR"), "/bathroom_f32.rs"));
 }
-#[cfg(any(
-    feature = "counted",
-    not(target_os = "none"),
-    not(all(target_arch = "arm", target_abi = "eabi"))
-))]
 #[path = "ftb.rs"]
 mod ftb;
 #[cfg(all(
@@ -76,11 +71,6 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
         }
         SceneName::Limit => view.view_parts(&limit::SCENE, &limit::CAMERA, 4, LINEAR),
         SceneName::Raystones => view.view_parts(&raystones::SCENE, &raystones::CAMERA, 3, LINEAR),
-        #[cfg(any(
-            feature = "counted",
-            not(target_os = "none"),
-            not(all(target_arch = "arm", target_abi = "eabi"))
-        ))]
         SceneName::Ftb => view.view_parts(&ftb::SCENE, &ftb::CAMERA, 3, LINEAR),
         #[cfg(all(
             any(feature = "counted", not(target_os = "none")),
@@ -97,12 +87,6 @@ pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
             view.view_parts(&bathroom::SCENE, &bathroom::CAMERA, bathroom::DEPTH, Output::SRGB)
         }
         // Not carried there: no job asks for them.
-        #[cfg(not(any(
-            feature = "counted",
-            not(target_os = "none"),
-            not(all(target_arch = "arm", target_abi = "eabi"))
-        )))]
-        SceneName::Ftb => shot(SceneName::Limit, view),
         #[cfg(all(target_arch = "arm", target_abi = "eabi"))]
         SceneName::Bathroom => shot(SceneName::Limit, view),
         #[cfg(not(all(
