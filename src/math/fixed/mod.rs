@@ -26,7 +26,7 @@ use super::{Arithmetic, log, root};
 use crate::blob::stored_numbers;
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
-use kernel::{length_times_unit, lengths, magnitude, project, units};
+use kernel::{length_times_unit, lengths, magnitude, project, project_around, units};
 
 type Unit = FixedI32<U17>;
 type Weight = FixedI32<U14>;
@@ -309,6 +309,16 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn endless_point(o: &[I16F16; 3], a: I16F16, b: Unit, d: &[Unit; 3]) -> [I16F16; 3] {
         horizon::endless_point(o, a, b, d)
+    }
+
+    #[inline(always)]
+    fn endless_difference(a: I16F16, b: I16F16) -> I16F16 {
+        a.wrapping_sub(b)
+    }
+
+    #[inline(always)]
+    fn endless_project(v: &[I16F16; 3], d: &[Unit; 3]) -> I16F16 {
+        I16F16::from_bits(project_around(&lengths(v), &units(d)))
     }
 
     #[inline(always)]
