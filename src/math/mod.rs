@@ -463,8 +463,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn cells_long(cell: Self::Length, n: u32) -> Self::Length;
     /// A distance as a span, rounded up so that an end is never early.
     fn span(t: Self::Length, unit: u8) -> Self::Span;
-    /// A span `n` times, for up to 7.
-    fn spans_of(s: Self::Span, n: u32) -> Self::Span;
+    /// A span and `n` times another, for up to 7: no more than adding that as often gives.
+    fn spans_on(first: Self::Span, s: Self::Span, n: u32) -> Self::Span;
     /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
     fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
     /// `Rᵀ·v`, the way back.

@@ -49,8 +49,9 @@ pub struct Limits {
     pub levels: u8,
     /// A cell of so many shapes or fewer is never cut.
     pub leaf: u8,
-    /// Cells are enlarged by 2^−precision of what eight cells of the grid span, up to twice that; at most
-    /// 24. Fixed point needs 12; floats can do with 16, unless rays start hundreds of sides away.
+    /// Cells are enlarged by 2^−precision of what eight cells of the grid span, up to twice that; 6 to 24,
+    /// and what lies beyond counts as these. Fixed point needs 12; floats can do with 16, unless rays start
+    /// hundreds of sides away.
     pub precision: u8,
 }
 
@@ -123,9 +124,16 @@ impl fmt::Display for BuildError {
 
 impl core::error::Error for BuildError {}
 
-/// By how much cells are enlarged.
+/// By how much cells are enlarged: by a quarter at most, so that a grid of one cell holds all shapes and
+/// the margin around them.
 const fn margin(grid: &Grid, precision: u8) -> i32 {
-    let precision = if precision > 24 { 24 } else { precision };
+    let precision = if precision > 24 {
+        24
+    } else if precision < 6 {
+        6
+    } else {
+        precision
+    };
     ((1i64 << (grid.shift + 11)) >> precision) as i32 + MARGIN_STEPS
 }
 
@@ -167,9 +175,11 @@ struct Sizes {
 }
 
 impl Sizes {
-    /// Nine bits are left of the largest size: the cube of a side times eight million costs fits 64 bits.
+    /// Nine bits are left of the largest size, and of the least side of a cell: the cube of a side times
+    /// eight million costs fits 64 bits.
     const fn of(extents: &[Extent], largest: i32) -> Self {
-        let mut shift = 0;
+        let least = Grid::new([1; 3], 1).side();
+        let (largest, mut shift) = (if largest > least { largest } else { least }, 0);
         while largest >> shift > 1 << 9 {
             shift += 1;
         }

@@ -241,13 +241,14 @@ impl<A: Arithmetic> Octree<'_, A> {
         }
         // For each axis the cell that the ray starts in, its exit, and where the ray leaves the grid.
         let (mut exits, mut whole, mut cell) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
+        let last = self.cells.map(|n| u32::from(n) - 1);
         for axis in 0..3 {
-            let last = u32::from(self.cells[axis]) - 1;
             let before = A::cells_before(o[axis], self.per_cell, self.unit);
-            let Some(more) = last.checked_sub(before) else { return };
+            let Some(more) = last[axis].checked_sub(before) else { return };
             let left = A::cells_long(self.cell, before + 1) - o[axis];
             (exits[axis], whole[axis]) = A::spans(left, self.cell, &pace[axis], self.unit);
-            let end = exits[axis] + A::spans_of(whole[axis], more);
+            // No later than the last cell's exit, so that no ray steps off the grid.
+            let end = A::spans_on(exits[axis], whole[axis], more);
             if end < bound {
                 bound = end;
             }
@@ -266,6 +267,10 @@ impl<A: Arithmetic> Octree<'_, A> {
         let Some(&(mut word)) = self.words.get(row as usize) else { return };
         loop {
             visitor.step();
+            debug_assert!(
+                x <= last[0] && row.wrapping_sub(1) < rows * (last[2] + 1),
+                "off the grid"
+            );
             if let Some(index) = node::child(word, x) {
                 let Some(&below) = self.words.get(index) else { return };
                 if node::is_leaf(below) {

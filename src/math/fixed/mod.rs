@@ -738,8 +738,8 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn spans_of(s: i32, n: u32) -> i32 {
-        s.wrapping_mul(n as i32)
+    fn spans_on(first: i32, s: i32, n: u32) -> i32 {
+        first.wrapping_add(s.wrapping_mul(n as i32))
     }
 
     #[inline(always)]

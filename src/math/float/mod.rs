@@ -612,8 +612,10 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn spans_of(s: $f, n: u32) -> $f {
-                s * n as $f
+            fn spans_on(first: $f, s: $f, n: u32) -> $f {
+                // Seven sums may be rounded down, a product and a sum up.
+                let sum = first + s * n as $f;
+                sum - sum.abs() * (16.0 * $eps)
             }
 
             #[inline(always)]
