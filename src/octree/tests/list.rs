@@ -212,42 +212,47 @@ macro_rules! against_a_list {
                 assert!(hits > rays / 10);
             }
 
-            /// Spheres that end just short of planes between cells, and rays along these planes
-            /// that meet them there: what a tree without its margin misses.
+            /// Spheres that end just short of planes between cells, on either side, and rays along these
+            /// planes that meet them there, from near and far: what a tree without its margin misses.
             #[test]
             fn caps_at_planes() {
                 let mut random = Random(0xfeed_beef);
                 let mut hits = 0;
-                for round in 0..60 {
+                for round in 0..90 {
                     let side = [1.0, 16.0, 256.0][round % 3];
-                    // The first two fix the cube to about ±0.49 sides.
+                    // How far from the plane, and how far from the pole: 2⁻¹⁶ of the grid's side.
+                    let part = side / 65536.0;
+                    let short = [9.0, 60.0][round % 2];
+                    // The first two fix the grid to about ±0.49 sides.
                     let tiny = side * 0.001;
                     let mut all = vec![([-0.49 * side; 3], tiny), ([0.49 * side; 3], tiny)];
                     let mut targets = Vec::new();
                     for _ in 0..100 {
                         let axis = random.below(3) as usize;
+                        let toward = if random.below(2) == 0 { 1.0 } else { -1.0 };
                         let mut pole = random.point(side * 0.4);
-                        pole[axis] = random.within(-0.25, 0.4) * side;
+                        pole[axis] = random.within(-0.25, 0.4) * toward * side;
                         let r = random.within(0.02, 0.08) * side;
                         all.push((pole, r));
-                        targets.push((axis, pole));
+                        targets.push((axis, toward, pole));
                     }
                     // The grid depends on how large they are, not on where.
                     let limits = Limits { leaf: 0, ..Limits::DEFAULT };
                     let (grid, min, cell) = Scene::new(&all, limits).grid();
-                    for ((axis, pole), (center, r)) in targets.iter_mut().zip(&mut all[2..]) {
+                    for ((axis, toward, pole), (center, r)) in targets.iter_mut().zip(&mut all[2..])
+                    {
                         let (axis, cell) = (*axis, cell / (1 << random.below(3)) as f64);
                         let n = ((pole[axis] - min[axis]) / cell).round();
-                        let short = random.within(-8.0, 1.0) / 65536.0 * side;
-                        pole[axis] = min[axis] + n * cell + short;
+                        pole[axis] =
+                            min[axis] + n * cell - *toward * random.within(-1.0, short) * part;
                         *center = *pole;
-                        center[axis] -= *r;
+                        center[axis] -= *toward * *r;
                     }
                     let scene = Scene::new(&all, limits);
                     assert_eq!(scene.grid().0, grid);
                     let tree = scene.tree();
                     for _ in 0..4000 {
-                        let (axis, pole) = targets[random.below(100) as usize];
+                        let (axis, toward, pole) = targets[random.below(100) as usize];
                         let mut d = random.direction();
                         if random.below(3) == 0 {
                             d[(axis + 1) % 3] = 0.0;
@@ -258,16 +263,66 @@ macro_rules! against_a_list {
                             continue;
                         }
                         d = d.map(|x| x / l);
-                        d[axis] = (random.below(25) as f64 - 12.0) / 131072.0;
-                        let t = random.within(0.0, 1.5) * side;
-                        let mut o = [0, 1, 2].map(|i| pole[i] - t * d[i]);
-                        o[axis] -= random.within(0.0, 3.0) / 65536.0 * side;
-                        let o = o.map(|x| make::length(x).unwrap());
+                        if random.below(3) > 0 {
+                            d[axis] = (random.below(25) as f64 - 12.0) / 131072.0;
+                        }
                         let d = d.map(|x| make::unit(x).unwrap());
+                        let far = [1.5 * side, 1.5 * side, 900.0][random.below(3) as usize];
+                        let t = random.within(0.0, far);
+                        let way = d.map(Into::<f64>::into);
+                        let mut o = [0, 1, 2].map(|i| pole[i] - t * way[i]);
+                        o[axis] -= toward * random.within(0.0, 3.0) * part;
+                        let o = o.map(|x| make::length(x.clamp(-1000.0, 1000.0)).unwrap());
                         hits += usize::from(scene.same(&tree, &mut WalkStack::new(), o, d));
                     }
                 }
-                assert!(hits > 100_000, "{hits}");
+                assert!(hits > 150_000, "{hits}");
+            }
+
+            /// Small spheres just within the grid's faces, and rays from hundreds of sides away that meet
+            /// them before they cross, as soon, a plane between cells: what a ray misses that is moved
+            /// too far when it is brought to where it enters.
+            #[test]
+            fn entered_from_afar() {
+                let mut random = Random(0xfa2_fa2);
+                let mut hits = 0;
+                for _ in 0..20 {
+                    let (half, r, step) = (0.49, 0.001, 1.0 / 65536.0);
+                    let mut all = vec![([-half; 3], r), ([half; 3], r)];
+                    all.extend((0..200).map(|_| (random.point(0.4), r)));
+                    let limits = Limits { leaf: 0, ..Limits::DEFAULT };
+                    let (grid, min, cell) = Scene::new(&all, limits).grid();
+                    let mut ways = Vec::new();
+                    for (center, _) in &mut all[2..] {
+                        let axis = random.below(3) as usize;
+                        let across = (axis + 1 + random.below(2) as usize) % 3;
+                        let [from, toward] =
+                            [0; 2].map(|_: i32| [-1.0, 1.0][random.below(2) as usize]);
+                        center[axis] = from * half;
+                        let n = 1 + random.below(u64::from(grid.cells[across]) - 1);
+                        let gap = r + random.within(40.0, 400.0) * step;
+                        center[across] = min[across] + n as f64 * cell - toward * gap;
+                        let mut d = [0.0; 3];
+                        d[axis] = -from * random.within(0.2, 0.8);
+                        d[across] = toward * (1.0 - d[axis] * d[axis]).sqrt();
+                        ways.push((*center, d));
+                    }
+                    let scene = Scene::new(&all, limits);
+                    assert_eq!(scene.grid().0, grid);
+                    for (center, d) in ways {
+                        let d = d.map(|x| make::unit(x).unwrap());
+                        let way = d.map(Into::<f64>::into);
+                        for _ in 0..20 {
+                            let t = random.within(100.0, 990.0);
+                            let near = random.point(0.5 * r);
+                            let o = [0, 1, 2].map(|i| center[i] + near[i] - t * way[i]);
+                            let o = o.map(|x| make::length(x).unwrap());
+                            let stack = &mut WalkStack::new();
+                            hits += usize::from(scene.same(&scene.tree(), stack, o, d));
+                        }
+                    }
+                }
+                assert!(hits > 20_000, "{hits}");
             }
 
             /// Scenes of all proportions, flat ones and needles among them: grids of one to eight cells
