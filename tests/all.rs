@@ -13,6 +13,7 @@ mod interreflection;
 mod light_order;
 mod light_selection;
 mod limits;
+mod patterns;
 mod pictures;
 mod precision;
 mod refraction;

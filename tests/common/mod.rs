@@ -1,5 +1,54 @@
-//! What several tests need: single rays from plain numbers, and numbers back.
+//! What several tests need: tests in each arithmetic, single rays from plain numbers, and numbers back.
 #![allow(dead_code, unreachable_pub)]
+
+/// Makes tests of bodies, one for each arithmetic, which a body calls `A`; and of bodies that take what a
+/// result may be off, for fixed point the number that stands first.
+macro_rules! in_each_arithmetic {
+    ($($name:ident: $body:block)*) => {
+        $(mod $name {
+            use super::*;
+            #[test]
+            fn fixed() {
+                type A = whitted::math::Fixed;
+                $body
+            }
+            #[test]
+            fn f32() {
+                type A = f32;
+                $body
+            }
+            #[test]
+            fn f64() {
+                type A = f64;
+                $body
+            }
+        })*
+    };
+    ($fixed:literal; $($name:ident: |$tol:ident| $body:block)*) => {
+        $(mod $name {
+            use super::*;
+            #[test]
+            fn fixed() {
+                type A = whitted::math::Fixed;
+                let $tol = $fixed;
+                $body
+            }
+            #[test]
+            fn f32() {
+                type A = f32;
+                let $tol = 1e-5;
+                $body
+            }
+            #[test]
+            fn f64() {
+                type A = f64;
+                let $tol = 1e-12;
+                $body
+            }
+        })*
+    };
+}
+pub(crate) use in_each_arithmetic;
 
 pub mod make;
 pub mod random;
@@ -85,4 +134,10 @@ pub fn radiance<A: FromF64>(
 /// An origin and the direction from there to a point.
 pub fn toward(eye: [f64; 3], at: [f64; 3]) -> ([f64; 3], [f64; 3]) {
     (eye, [0, 1, 2].map(|i| at[i] - eye[i]))
+}
+
+pub fn close<A: Arithmetic>(got: [f64; 3], exact: [f64; 3], tol: f64) {
+    for i in 0..3 {
+        assert!((got[i] - exact[i]).abs() <= tol, "{}: {got:?} for {exact:?}", A::NAME);
+    }
 }
