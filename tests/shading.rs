@@ -1,7 +1,6 @@
 //! Facts about the shading model, each computed by hand, in all three arithmetics.
 
 use crate::common::{close, in_each_arithmetic, radiance, toward};
-use whitted::math::Arithmetic;
 use whitted::scene::{
     Ambient, Background, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, PatternSpec,
     Rules, Scene, Shadow,

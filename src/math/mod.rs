@@ -30,11 +30,15 @@ pub use constant::tan_degrees;
 pub(crate) use constant::{
     cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
 };
-pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
-pub use fixed::{FixedDecay, FixedSpot};
-pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedRotation, FixedScale};
-pub use float::FloatSpot;
-pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatScale};
+pub use fixed::{
+    Fixed, FixedBarycentric, FixedCoarse, FixedDecay, FixedDirectionCone, FixedEdge, FixedEta,
+    FixedExponent, FixedIntensity, FixedInverse, FixedOutline, FixedPace, FixedRadius,
+    FixedRotation, FixedScale, FixedSpot,
+};
+pub use float::{
+    FloatBarycentric, FloatDirectionCone, FloatEdge, FloatEta, FloatOutline, FloatRadius,
+    FloatScale, FloatSpot,
+};
 pub(crate) use hash::{hash, spread};
 pub use root::sqrt_f32;
 pub(crate) use root::{normalize as normalize_u32, sqrt_u32};

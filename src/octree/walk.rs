@@ -22,8 +22,10 @@
 //! the builder's margin, so the shape was listed in a cell already seen.
 
 use super::OctreeBuffer;
-use super::builder::{Cube, LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
-use super::node::{self, Grid, IdWidth, MAX_LEVELS, TreeError, validate};
+use super::builder::{LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
+use super::grid::{self, Grid};
+use super::limits::Cube;
+use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 
 /// What a walk finds is its visitor's business.
@@ -126,7 +128,7 @@ const fn cube_fits(cube: &Cube, log2_step: i8, grid: &Grid) -> bool {
 
 for_each_arithmetic! {
     impl<'a> Octree<'a, A> {
-        /// The tree in these words over so many shapes, its grid of steps of 2^`log2_step`
+        /// The tree in these words over so many shapes, in steps of 2^`log2_step`
         /// (−16 for fixed point, whatever is given).
         ///
         /// # Errors
@@ -165,7 +167,7 @@ for_each_arithmetic! {
                 cell: make::from_grid(side, log2_step),
                 per_cell: make::per_cell(grid.mantissa, grid.shift, log2_step),
                 cells: n,
-                unit: grid.shift - node::LEAST_SHIFT,
+                unit: grid.shift - grid::LEAST_SHIFT,
                 width,
                 shapes: shapes as u32,
             })

@@ -1,6 +1,6 @@
 //! A tree finds what a list finds, to the bit.
 
-use super::node::Grid;
+use super::grid::Grid;
 use super::*;
 
 /// As near to a distance as comes before it.

@@ -1,6 +1,6 @@
 //! Trees as words: in a `static`, out of bounds, and made by somebody hostile.
 
-use super::node::Grid;
+use super::grid::Grid;
 use super::*;
 
 static EXTENTS: [Extent; 64] = {
