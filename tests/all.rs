@@ -1,6 +1,7 @@
 //! All tests of scenes and pictures in one program: what they share, above all the renderer for every
 //! arithmetic, is compiled once. Those of one file: `cargo test --test all sampling::`.
 
+mod arithmetics;
 mod common;
 
 mod area_lights;
@@ -13,6 +14,7 @@ mod interreflection;
 mod light_order;
 mod light_selection;
 mod limits;
+mod patterns;
 mod pictures;
 mod precision;
 mod refraction;

@@ -1,7 +1,7 @@
 //! Endless planes where fixed point's positions end: what is seen, and what is lit, beyond 1024 units.
 
+use crate::arithmetics::in_each_arithmetic;
 use crate::common::radiance;
-use whitted::math::Fixed;
 use whitted::scene::{
     Background, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, Rules, Scene, Shadow,
 };
@@ -23,25 +23,7 @@ macro_rules! materials {
     };
 }
 
-macro_rules! for_both {
-    ($($name:ident: $body:block)*) => {
-        $(mod $name {
-            use super::*;
-            #[test]
-            fn fixed() {
-                type A = Fixed;
-                $body
-            }
-            #[test]
-            fn f64() {
-                type A = f64;
-                $body
-            }
-        })*
-    };
-}
-
-for_both! {
+in_each_arithmetic! {
     // The floors are met 2,000 and 3,000 units away, the sphere at 900, the sky nowhere.
     the_nearer_of_two_far_planes: {
         let planes = |first: f64, second: f64| {

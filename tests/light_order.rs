@@ -96,7 +96,7 @@ fn picture<A: Make>(
 }
 
 fn same_in_any_order<A: Make>() {
-    let mut saved = 0;
+    let (mut nodes, mut tests) = (0, 0);
     for (seed, selection) in
         [(1, Selection::All), (2, Selection::Choose(2)), (3, Selection::All), (4, Selection::All)]
     {
@@ -115,16 +115,18 @@ fn same_in_any_order<A: Make>() {
             );
             let name = A::NAME;
             assert!(alone == down && down == up && up == halves, "{name}, seed {seed}");
-            // Whole rows count the same in any order; the memory saves work: of walks more than what it
-            // costs in tests of shapes that aren't in the way after all.
+            // Whole rows count the same in any order; the memory saves work: walks, at the price of a test
+            // of a shape that isn't in the way after all. A node and the steps from it take no less than
+            // a test (the octree's builder reckons with 370 cycles, and 150 to 300).
             assert_eq!(with, again, "{name}, seed {seed}");
             assert_eq!(with.shadow, without.shadow);
             assert!(with.nodes <= without.nodes, "{with:?} {without:?}");
-            let work = |counts: &Counts| counts.nodes as i64 + counts.tests as i64;
-            saved += work(&without) - work(&with);
+            nodes += without.nodes as i64 - with.nodes as i64;
+            tests += without.tests as i64 - with.tests as i64;
         });
     }
-    assert!(saved > 0, "{} nodes and tests saved", saved);
+    println!("{}: {nodes} nodes and {tests} tests saved", A::NAME);
+    assert!(nodes > 0 && nodes + tests > 0, "{nodes} nodes and {tests} tests saved");
 }
 
 #[test]

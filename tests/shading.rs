@@ -1,49 +1,16 @@
 //! Facts about the shading model, each computed by hand, in all three arithmetics.
 
-use crate::common::{radiance, toward};
-use whitted::math::{Arithmetic, Fixed};
+use crate::arithmetics::in_each_arithmetic;
+use crate::common::{close, radiance, toward};
 use whitted::scene::{
     Ambient, Background, Falloff, Light, LightSpec, Material, MaterialSpec, Parts, PatternSpec,
     Rules, Scene, Shadow,
 };
 use whitted::shape::{Plane, Sphere};
 
-/// Runs a test body for each arithmetic: `A` is the arithmetic, `$tol` what it may be off.
-macro_rules! for_all {
-    ($($name:ident: |$tol:ident| $body:block)*) => {
-        $(mod $name {
-            use super::*;
-            #[test]
-            fn fixed() {
-                type A = Fixed;
-                let $tol = 4e-4;
-                $body
-            }
-            #[test]
-            fn f32() {
-                type A = f32;
-                let $tol = 1e-5;
-                $body
-            }
-            #[test]
-            fn f64() {
-                type A = f64;
-                let $tol = 1e-12;
-                $body
-            }
-        })*
-    };
-}
-
-fn close<A: Arithmetic>(got: [f64; 3], exact: [f64; 3], tol: f64) {
-    for i in 0..3 {
-        assert!((got[i] - exact[i]).abs() <= tol, "{}: {got:?} for {exact:?}", A::NAME);
-    }
-}
-
 const DOWN: [f64; 3] = [0.0, -1.0, 0.0];
 
-for_all! {
+in_each_arithmetic! { 4e-4;
     // E = I/r²·cos at a height of 2 and 1.5 to the side: r² = 6.25, cos = 0.8
     lambert: |tol| {
         let parts = Parts::<A> {

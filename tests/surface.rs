@@ -1,7 +1,8 @@
 //! Facts about surface detail, each by hand, in all three arithmetics: textures, bumps, Fresnel's
-//! weights, absorption. And what each pattern looks like, as text.
+//! weights, absorption.
 
-use crate::common::{FromF64, radiance};
+use crate::arithmetics::in_each_arithmetic;
+use crate::common::{close, radiance};
 use whitted::math::{Arithmetic, Fixed};
 use whitted::scene::{
     Absorption, Ambient, Background, Filter, Image, Light, LightSpec, Mapping, Material,
@@ -10,43 +11,10 @@ use whitted::scene::{
 };
 use whitted::shape::{Cuboid, Plane, Sphere, Triangle};
 
-/// Runs a test body for each arithmetic: `A` is the arithmetic, `$tol` what it may be off.
-macro_rules! for_all {
-    ($($name:ident: |$tol:ident| $body:block)*) => {
-        $(mod $name {
-            use super::*;
-            #[test]
-            fn fixed() {
-                type A = Fixed;
-                let $tol = 6e-4;
-                $body
-            }
-            #[test]
-            fn f32() {
-                type A = f32;
-                let $tol = 1e-5;
-                $body
-            }
-            #[test]
-            fn f64() {
-                type A = f64;
-                let $tol = 1e-12;
-                $body
-            }
-        })*
-    };
-}
-
-fn close<A: Arithmetic>(got: [f64; 3], exact: [f64; 3], tol: f64) {
-    for i in 0..3 {
-        assert!((got[i] - exact[i]).abs() <= tol, "{}: {got:?} for {exact:?}", A::NAME);
-    }
-}
-
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 const DOWN: [f64; 3] = [0.0, -1.0, 0.0];
 /// White under all light there is.
-const WHITE: MaterialSpec =
+pub(super) const WHITE: MaterialSpec =
     MaterialSpec { ambient: [1.0; 3], diffuse: [1.0; 3], ..MaterialSpec::BLACK };
 /// Lets all through without bending it.
 const CLEAR: MaterialSpec = MaterialSpec { transmission: [1.0; 3], ..MaterialSpec::BLACK };
@@ -60,9 +28,9 @@ const GLASS: MaterialSpec = MaterialSpec {
 const TEXELS: Texels<'_> =
     Texels::Indexed { bits: 2, palette: &[[0; 3], [255, 0, 0], [255; 3], [0, 0, 255]] };
 /// Above: red, white, blue; below: black, red, white.
-const FLAG: Image<'_> = Image::new(3, 2, TEXELS, &[0b0110_1100, 0b0001_1000]);
+pub(super) const FLAG: Image<'_> = Image::new(3, 2, TEXELS, &[0b0110_1100, 0b0001_1000]);
 
-for_all! {
+in_each_arithmetic! { 6e-4;
     // exp(−a·d) of three rates over a slab of 2, seen against white.
     a_slab: |tol| {
         let parts = Parts::<A> {
@@ -329,184 +297,4 @@ fn bytes_in_flash() {
     assert!(size_of::<Material<f32>>() <= 140);
     assert_eq!(size_of::<Absorption<Fixed>>(), 24);
     assert_eq!(size_of::<TriangleUv>(), 12);
-}
-
-/// A square of 8×4 units of a wall, seen from the front: `@` for 1, ` ` for 0.
-fn swatch<A: FromF64>(scene: &Scene<'_, A>) -> String {
-    const LEVELS: &[u8; 10] = b" .:-=+*%#@";
-    let mut text = String::new();
-    for row in 0..10 {
-        for column in 0..48 {
-            let (x, y) = ((f64::from(column) + 0.5) / 6.0, 4.0 - (f64::from(row) + 0.5) / 2.5);
-            let [value, _, _] = radiance(scene, 1, [x, y, 3.0], [0.0, 0.0, -1.0]);
-            text.push(char::from(LEVELS[((value * 9.99) as usize).min(9)]));
-        }
-        text.push('\n');
-    }
-    text
-}
-
-/// The swatches of a texture in the three arithmetics: fixed, single, double.
-fn swatches(spec: TextureSpec<'_>) -> [String; 3] {
-    macro_rules! one {
-        ($a:ty) => {{
-            // Not on a border of cells: the wall stands at 0.4.
-            swatch::<$a>(&Scene::<$a>::checked(Parts {
-                planes: &[Plane::<$a>::new([0.0, 0.0, 1.0], 0.4, 0)],
-                materials: &[Material::<$a>::new(MaterialSpec { texture: Some(0), ..WHITE })],
-                textures: &[Texture::<$a>::new(spec)],
-                ambient: Ambient::<$a>::new([1.0; 3]),
-                ..Parts::EMPTY
-            }))
-        }};
-    }
-    [one!(Fixed), one!(f32), one!(f64)]
-}
-
-/// What is wrong with how a texture looks: nothing, or the pictures that differ.
-fn looks(name: &str, spec: TextureSpec<'_>, expected: &str) -> String {
-    let expected: String = expected
-        .trim_matches([' ', '\n'])
-        .lines()
-        .map(|line| format!("{}\n", line.trim().trim_matches('|')))
-        .collect();
-    let mut wrong = String::new();
-    for (got, arithmetic) in swatches(spec).iter().zip(["fixed", "f32", "f64"]) {
-        let differ = got.chars().zip(expected.chars()).filter(|(a, b)| a != b).count();
-        // Rounding may move a value over the border between two levels.
-        let allowed = if arithmetic == "fixed" { 0 } else { 8 };
-        if differ > allowed || got.len() != expected.len() {
-            let framed: String = got.lines().map(|line| format!("        |{line}|\n")).collect();
-            wrong += &format!("{name} in {arithmetic} differs in {differ}:\n{framed}");
-        }
-    }
-    wrong
-}
-
-const A_CHECKER: &str = "
-        |            @@@@@@@@@@@@            @@@@@@@@@@@@|
-        |            @@@@@@@@@@@@            @@@@@@@@@@@@|
-        |            @@@@@@@@@@@@            @@@@@@@@@@@@|
-        |@@@@@@@@@@@@            @@@@@@@@@@@@            |
-        |@@@@@@@@@@@@            @@@@@@@@@@@@            |
-        |            @@@@@@@@@@@@            @@@@@@@@@@@@|
-        |            @@@@@@@@@@@@            @@@@@@@@@@@@|
-        |            @@@@@@@@@@@@            @@@@@@@@@@@@|
-        |@@@@@@@@@@@@            @@@@@@@@@@@@            |
-        |@@@@@@@@@@@@            @@@@@@@@@@@@            |
-    ";
-const STRIPES: &str = "
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-        |@@@@     @@@@     @@@@     @@@@     @@@@     @@@|
-    ";
-const A_GRADIENT: &str = "
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-        |@@@@@#####%%%%*****+++++=====-----::::.....     |
-    ";
-const NOISE: &str = "
-        |*+==----=+++++++++++=-:::.:--==+++*%%%*=---::--=|
-        |==----::-------=+*%**+=:..:-=+****%%##%++++==--=|
-        |=--------------=+***+++=-:.:-+****%#@#*++====+**|
-        |---:..::::---=+*%%**+++=:::::-==++******++++==+*|
-        |==-:..::--=+++*###%*++++-::::-----+*%%*+=====--=|
-        |==--=---=--=+*%###%**++=-:.:=+++++*%%%%+====++++|
-        |==++====++==+++*%%*****+=::=+**%#%%%%%*+++++*+++|
-        |+***+++++====--=+++++++======++++%#@@#%*****+=--|
-        |**%*++++++=-----=++===-=--===++++**#@@#%**++=:..|
-        |*%****%%*+==++====+**+===-:..:-=+***%##%*=-::...|
-    ";
-const MARBLE: &str = "
-        |@+.  :%#@#++-. .-:   . :@@- #@%+#@%-=%@@#*%@#..@|
-        |%-  *@@@@@#*:   ..     %@@# -@@+=@#++%@@@*+#% -@|
-        |   +@%++=.       :%@%  %@%%..@@@++#@#**%#@#-  .+|
-        |#- :@@#+=*##%@@##@@@@- +@@@+ *@@#%*=:   .*@#- =@|
-        |*+   :#@@@#*=*@@@@##@* +@@%- @%=%@@@@@%*%@@@+ +@|
-        |*%%-.  +%+%@@#*=-%@@%: .=#@% %@@@%=-. =@@@@#- +@|
-        |@@@@+.  .-*#@@*.      .+#@@+ .:--:.:=+*+-:=@@. -|
-        |@%#@%.  .-#@=  .++..:%@@@@*  =%##%%@@%@@+.:%@= .|
-        |##%@@+:  .%@=    :==::#@#:   -+*%@@@@@@@@@*#@#: |
-        |#*#@@@#%+ -@@%*+   -++--#@:  -@@- .-+#@@@@@@@@:.|
-    ";
-const WOOD: &str = "
-        |.+@@@@@#*=-.              .=%@@@@%:   .=#@@%+:  |
-        |#@@@#+:    ..:::-+**+-:.    .-=*@@%-   =#@@@@#- |
-        |@@@%-  .-=*##@@@@@@#@@@@#+.    :+@@#+.  -*#@@@%:|
-        |@@@+. .+#@@@%*=:.     .=#@%=.    -%@@*:   :=%@@#|
-        |@@%: .%@@%-      ....   -#@@*:   :*@@*:   .-*@@@|
-        |@@+.  +@@+:     -*%*=:   *@@*:  :*@@%:   .-%@@@#|
-        |@@+.  .%@@#+.   .+%%=.  :#@@*:  .=%@@+.  -%@@@#*|
-        |@@%=:   .*@@%=.  .::.   =@@#+:  .-+#@@=  *@@@#+.|
-        |@@@+:.   .*@@@@#*=-::-*#@@#*=:   :*@@%:  :%@#-  |
-        |%@@@*-.   -%##@@@@@@@@@#+:..   :*@@#*-  .=#@@*. |
-    ";
-const BRICKS: &str = "
-        |@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@|
-        |@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@|
-        |                                                |
-        |  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@|
-        |                                                |
-        |@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@|
-        |@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@|
-        |                                                |
-        |  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@  @@@@@@@@@@|
-        |                                                |
-    ";
-const A_PICTURE: &str = "
-        |@@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@        |
-        |@@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@        |
-        |@@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@        |
-        |@@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@        |
-        |@@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@        |
-        |        @@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@|
-        |        @@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@|
-        |        @@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@|
-        |        @@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@|
-        |        @@@@@@@@@@@@@@@@        @@@@@@@@@@@@@@@@|
-    ";
-
-#[test]
-fn patterns_as_text() {
-    let mut wrong = String::new();
-    let of = TextureSpec::of;
-    let white_first = TextureSpec { size: [2.0, 1.0, 0.0], ..of(Pattern::Checker) };
-    wrong += &looks("a checker", white_first, A_CHECKER);
-    wrong += &looks(
-        "stripes",
-        TextureSpec { size: [1.5; 3], ..of(Pattern::Stripes { width: 0.5 }) },
-        STRIPES,
-    );
-    let ramp = Pattern::Gradient { wrap: Wrap::Clamp };
-    wrong += &looks("a gradient", TextureSpec { size: [8.0; 3], ..of(ramp) }, A_GRADIENT);
-    wrong +=
-        &looks("noise", TextureSpec { size: [1.7; 3], ..of(Pattern::Noise { octaves: 3 }) }, NOISE);
-    let marble = Pattern::Marble { octaves: 3, turbulence: 1.0 };
-    wrong += &looks("marble", TextureSpec { size: [2.0; 3], ..of(marble) }, MARBLE);
-    let wood = Pattern::Wood { octaves: 2, turbulence: 0.3 };
-    let rings =
-        TextureSpec { size: [1.5; 3], origin: [3.0, 1.6, 0.0], up: [0.0, 0.2, 1.0], ..of(wood) };
-    wrong += &looks("wood", rings, WOOD);
-    let bricks = TextureSpec { size: [2.0, 1.0, 0.0], ..of(Pattern::Brick { mortar: 0.3 }) };
-    wrong += &looks("bricks", bricks, BRICKS);
-    wrong += &looks(
-        "a picture",
-        TextureSpec { size: [4.0, 4.0, 0.0], ..of(Pattern::Image(FLAG)) },
-        A_PICTURE,
-    );
-    assert!(wrong.is_empty(), "{wrong}");
 }

@@ -2,8 +2,10 @@
 //!
 //! Two samples differ if their colours do by more than a threshold, on 8-bit sRGB, or if the rays
 //! met different objects, or the same with other lights in shadow. Object and shadows are kept as
-//! a signature of six bits, and one says whether many rays followed. They are made by a tally that stands
-//! before the user's, so that the tracer knows nothing of it.
+//! a signature, made by a tally that stands before the user's, so that the tracer knows nothing of it.
+//!
+//! Colours and signature share a word. Adaptive sampling compares seven bits of the signature. Sparse
+//! sampling has to know whether many rays followed, and marks samples at corners: that leaves it six.
 
 use super::{Output, Rgb888};
 use crate::math::{Arithmetic, Rgb};
@@ -15,15 +17,16 @@ use crate::tally::{RayKind, Tally, Term};
 pub struct Sample<A: Arithmetic> {
     pub(super) radiance: Rgb<A::Radiance>,
     srgb: [u8; 3],
-    /// Six bits, 0 where no ray has been sent, the bit for many rays, and the mark.
+    /// The signature and the bit for many rays. Where sparse sampling has been told of it, six bits are
+    /// left, 0 where no ray has been sent, and the seventh is its mark.
     signature: u8,
 }
 
-/// The bit of the signature that is a sampler's to set.
+/// The seventh bit of the signature, or the mark.
 const MARK: u8 = 0x80;
 /// The bit that says that the pixel took many rays.
 const COSTLY: u8 = 0x40;
-/// The signature itself.
+/// The signature's other bits.
 const SIGNATURE: u8 = 0x3f;
 /// More rays than these, of all kinds, are many.
 const FEW_RAYS: u32 = 5;
@@ -36,8 +39,14 @@ impl<A: Arithmetic> Sample<A> {
     #[inline(always)]
     pub(super) fn new(radiance: Rgb<A::Radiance>, signature: u8) -> Self {
         let Rgb888(srgb) = Output::SRGB.pixel::<A, Rgb888>(&radiance, 0, 0);
-        let one = u8::from(signature & SIGNATURE == 0);
-        Self { radiance, srgb, signature: signature & !MARK | one }
+        Self { radiance, srgb, signature }
+    }
+
+    /// The same as sparse sampling remembers it: known, and not marked yet.
+    #[inline(always)]
+    pub(super) fn known(self) -> Self {
+        let one = u8::from(self.signature & SIGNATURE == 0);
+        Self { signature: self.signature & !MARK | one, ..self }
     }
 
     /// A radiance that nothing will be compared with.
@@ -137,7 +146,7 @@ pub(super) fn differ<A: Arithmetic, const N: usize>(
     samples: &[Sample<A>; N],
     threshold: u8,
 ) -> bool {
-    let mut signatures = samples.iter().map(|sample| sample.signature & SIGNATURE);
+    let mut signatures = samples.iter().map(|sample| sample.signature & !COSTLY);
     let first = signatures.next();
     signatures.any(|signature| Some(signature) != first) || differ_in_color(samples, threshold)
 }
@@ -159,7 +168,8 @@ impl<'t, T> Watch<'t, T> {
     #[inline(always)]
     pub(super) fn sample<A: Arithmetic>(&self, radiance: Rgb<A::Radiance>) -> Sample<A> {
         let costly = if self.rays > FEW_RAYS { COSTLY } else { 0 };
-        Sample::new(radiance, self.signature & SIGNATURE | costly)
+        let seventh = self.signature << 1 & MARK;
+        Sample::new(radiance, self.signature & SIGNATURE | seventh | costly)
     }
 }
 
@@ -173,7 +183,7 @@ impl<T: Tally> Tally for Watch<'_, T> {
     #[inline(always)]
     fn hit<A: Arithmetic>(&mut self, kind: RayKind, shape: u32, distance: A::Length) {
         if kind == RayKind::Primary {
-            // An odd factor keeps shapes apart whose numbers differ by less than 64.
+            // An odd factor keeps shapes apart whose numbers differ by less than 128, or 64 of six bits.
             self.signature = (shape as u8).wrapping_add(1).wrapping_mul(0x9d);
         }
         self.tally.hit::<A>(kind, shape, distance);
@@ -227,22 +237,42 @@ mod tests {
         }
     }
 
+    /// What is compared after these reports, by adaptive sampling and by sparse sampling.
+    fn signatures(shape: u32, shadows: &[u16], deeper: bool) -> [u8; 2] {
+        let mut tally = ();
+        let mut watch = Watch::new(&mut tally);
+        watch.hit::<f64>(RayKind::Primary, shape, 1.0);
+        watch.hit::<f64>(RayKind::Reflection, 99, 1.0);
+        shadows.iter().for_each(|&light| watch.shadowed(light, 1));
+        if deeper {
+            watch.shadowed(0, 2);
+        }
+        let sample = watch.sample::<f64>([0.5; 3]);
+        [sample.signature & !COSTLY, sample.known().signature & SIGNATURE]
+    }
+
     #[test]
     fn signatures_tell_shapes_and_shadows_apart() {
-        let mut tally = ();
-        let mut signature = |shape: u32, shadows: &[u16], deeper: bool| {
+        // Seven bits and six: twice as many neighbours, or as many lights.
+        for (i, count) in [(0, 128), (1, 64)] {
+            let signature = |shape, shadows: &[u16]| signatures(shape, shadows, false)[i];
+            assert!((1..count).all(|shape| signature(shape, &[]) != signature(0, &[])));
+            let lights = 0..count as u16 - 1;
+            assert!(lights.clone().all(|light| signature(3, &[light]) != signature(3, &[])));
+            assert!(signature(3, &[0, 1]) != signature(3, &[0]));
+        }
+        assert_eq!(signatures(3, &[1], true), signatures(3, &[1], false));
+    }
+
+    #[test]
+    fn what_sparse_sampling_knows_is_no_mark() {
+        for shape in 0..256 {
+            let mut tally = ();
             let mut watch = Watch::new(&mut tally);
             watch.hit::<f64>(RayKind::Primary, shape, 1.0);
-            watch.hit::<f64>(RayKind::Reflection, 99, 1.0);
-            shadows.iter().for_each(|&light| watch.shadowed(light, 1));
-            if deeper {
-                watch.shadowed(0, 2);
-            }
-            watch.signature & SIGNATURE
-        };
-        assert!((1..64).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
-        assert!((0..63).all(|light| signature(3, &[light], false) != signature(3, &[], false)));
-        assert!(signature(3, &[0, 1], false) != signature(3, &[0], false));
-        assert_eq!(signature(3, &[1], true), signature(3, &[1], false));
+            let known = watch.sample::<f64>([0.5; 3]).known();
+            assert!(known.is_known() && !known.is_marked());
+            assert!(known.marked().is_marked() && known.marked().is_known());
+        }
     }
 }

@@ -30,11 +30,15 @@ pub use constant::tan_degrees;
 pub(crate) use constant::{
     DENSEST, cross as cross_f64, inverted, sqrt as sqrt_f64, unit_vector as unit_f64,
 };
-pub use fixed::{Fixed, FixedBarycentric, FixedCoarse, FixedEta, FixedExponent, FixedIntensity};
-pub use fixed::{FixedDecay, FixedSpot};
-pub use fixed::{FixedEdge, FixedInverse, FixedOutline, FixedRadius, FixedRotation, FixedScale};
-pub use float::FloatSpot;
-pub use float::{FloatBarycentric, FloatEdge, FloatEta, FloatOutline, FloatRadius, FloatScale};
+pub use fixed::{
+    Fixed, FixedBarycentric, FixedCoarse, FixedDecay, FixedDirectionCone, FixedEdge, FixedEta,
+    FixedExponent, FixedIntensity, FixedInverse, FixedOutline, FixedPace, FixedRadius,
+    FixedRotation, FixedScale, FixedSpot,
+};
+pub use float::{
+    FloatBarycentric, FloatDirectionCone, FloatEdge, FloatEta, FloatOutline, FloatRadius,
+    FloatScale, FloatSpot,
+};
 pub(crate) use hash::{hash, spread};
 pub use root::sqrt_f32;
 pub(crate) use root::{normalize as normalize_u32, sqrt_u32};
@@ -208,7 +212,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn beyond_horizon(_a: Self::Length, _b: Self::Unit) -> Self::Length {
         Self::NO_LENGTH
     }
-    /// `o + a/b·d`, for patterns on a plane beyond the horizon: in fixed point to 16,384 units, where
+    /// `o + a/b·d`, for patterns on a plane beyond the horizon: in fixed point to 32,768 units, where
     /// coordinates begin again.
     #[inline(always)]
     fn endless_point(
@@ -218,6 +222,17 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
         d: &[Self::Unit; 3],
     ) -> [Self::Length; 3] {
         Self::along(o, Self::ratio(a, b), d)
+    }
+    /// `a − b` for patterns: `a` may be a coordinate of an [`endless_point`](Self::endless_point), and the
+    /// difference begins again where those do.
+    #[inline(always)]
+    fn endless_difference(a: Self::Length, b: Self::Length) -> Self::Length {
+        a - b
+    }
+    /// `v·d` of such differences, |d| ≤ 1; it begins again likewise.
+    #[inline(always)]
+    fn endless_project(v: &[Self::Length; 3], d: &[Self::Unit; 3]) -> Self::Length {
+        Self::project(v, d)
     }
     /// The unit vector along `v`, its length, and the length's reciprocal. A null vector has no
     /// direction and gives null.
@@ -384,7 +399,7 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn ramp(middle: Self::Radiance, slope: Self::Radiance, u: Self::Unit) -> Self::Radiance;
     /// `a + b`, saturating, for radiances that aren't negative.
     fn gather(a: Self::Radiance, b: Self::Radiance) -> Self::Radiance;
-    /// The step that leads from `a` to `b` in 2^`log2_side` of them, for radiances that aren't negative.
+    /// The step that leads from `a` to `b` in 2^`log2` of them, for radiances that aren't negative.
     /// `log2` is at most 4. Rounded towards 0.
     fn step(a: Self::Radiance, b: Self::Radiance, log2: u32) -> Self::Radiance;
     /// `a` and `n` steps, fewer than [`step`](Self::step) was made for: it lies between the two that
@@ -452,8 +467,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn cells_long(cell: Self::Length, n: u32) -> Self::Length;
     /// A distance as a span, rounded up so that an end is never early.
     fn span(t: Self::Length, unit: u8) -> Self::Span;
-    /// A span `n` times, for up to 7.
-    fn spans_of(s: Self::Span, n: u32) -> Self::Span;
+    /// A span and `n` times another, for up to 7: no more than adding that as often gives.
+    fn spans_on(first: Self::Span, s: Self::Span, n: u32) -> Self::Span;
     /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
     fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
     /// `Rᵀ·v`, the way back.

@@ -1,7 +1,8 @@
 //! A tree with the memory it lies in: for scenes in `static`s.
 
 use super::Extent;
-use super::builder::{BuildError, Built, Limits, build_into};
+use super::builder::build_into;
+use super::limits::{BuildError, Built, Limits};
 
 /// Scratch memory for trees in `const`s.
 const SCRATCH: usize = 8192;

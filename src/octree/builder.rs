@@ -1,38 +1,20 @@
 //! Building a tree: whole numbers alone, in memory of fixed size, at compile time or run time.
 //!
-//! The grid at the root is as fine as makes rays cheap where shapes lie evenly: a ray that crosses the
-//! grid crosses a cell with a probability that is the ratio of their surfaces, and of each shape as many
-//! copies are expected as its box is larger than a cell.
-//!
 //! A cell is cut where that is expected to make rays cheaper (greedily, after MacDonald and
 //! Booth, "Heuristics for ray tracing using space subdivision", 1990): a ray that crosses a cell
 //! crosses an octant with the probability ¼, the ratio of their surfaces, so two octants on
 //! average.
-//!
-//! **Margin.** A walk is less exact than a shape's own test, so shapes are listed in all cells
-//! they come near. With a fixed-point walk, in 2⁻¹⁴ of a cell's side (or up to half of that): a position
-//! is rounded to 1; a sphere's test keeps sixteen bits of the radius, 2. Where the ray is fast, quotients
-//! are 1 wrong, and what eight cells' quotients add up to 7; their relative error is 2; halving a span loses
-//! at most 1 a level. Where it is slow, a component below 9·2⁻¹⁷ is taken for that, which drifts by up to
-//! √3·9 = 16. Either way it is less than 32. The test of a small sphere and the rounding of an extent add a
-//! few steps: 8.
 
 use super::Extent;
-use super::node::{self, Grid, IdWidth, MAX_CELLS, MAX_LEVELS, ROOM};
+use super::grid::{Grid, MAX_CELLS, grid_of, margin, test_cost};
+use super::limits::{BuildError, Built, Cube, Limits};
+use super::node::{self, IdWidth, MAX_LEVELS, ROOM};
 use super::overlap::{Cell, bounds};
-use core::fmt;
 
-/// Cycles on a Cortex-M0+, roughly: for a cell of the grid, for an inner node, for a step to a child,
-/// and for the test of a sphere or of another shape, most of which miss. Their proportions decide how fine
-/// the grid is and where a cell is cut.
-const CELL_COST: usize = 80;
+/// Cycles on a Cortex-M0+, roughly: for an inner node, and for a step to a child. With what tests cost they
+/// decide where a cell is cut.
 const NODE_COST: usize = 150;
 const STEP_COST: usize = 110;
-const SPHERE_COST: usize = 150;
-const TEST_COST: usize = 300;
-
-/// What rounding adds to an extent and to a test of it, in steps.
-const MARGIN_STEPS: i32 = 8;
 
 /// The smallest side is 2¹⁶ steps.
 pub(super) const LEAST_LOG2_SIDE: u8 = 16;
@@ -40,94 +22,6 @@ pub(super) const LEAST_LOG2_SIDE: u8 = 16;
 pub(super) const MOST_LOG2_SIDE: u8 = 29;
 /// Coordinates are within ±2²⁷, twice the range of fixed-point positions.
 const REACH: i32 = 1 << 27;
-
-/// How far to go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// So many levels; the grid counts as those that it stands for, up to three. Below it there are at
-    /// most [`MAX_LEVELS`].
-    pub levels: u8,
-    /// A cell of so many shapes or fewer is never cut.
-    pub leaf: u8,
-    /// Cells are enlarged by 2^−precision of what eight cells of the grid span, up to twice that; at most
-    /// 24. Fixed point needs 12; floats can do with 16, unless rays start hundreds of sides away.
-    pub precision: u8,
-}
-
-impl Limits {
-    /// Good for all arithmetics: ten levels (where the margin is a quarter of a cell or more), leaves as
-    /// the cost wants them.
-    pub const DEFAULT: Self = Self { levels: 10, leaf: 2, precision: 12 };
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
-
-/// The cube that a tree lies in: the grid starts at its smallest coordinates, and may be shorter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cube {
-    /// The smallest coordinates, in steps of the grid.
-    pub origin: [i32; 3],
-    /// The side is 2 to this power, in steps.
-    pub log2_side: u8,
-}
-
-/// What was built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Built {
-    /// Words used.
-    pub words: usize,
-    /// Words of scratch used.
-    pub scratch: usize,
-    /// Levels, those that the grid stands for among them.
-    pub levels: u8,
-    /// The cube.
-    pub cube: Cube,
-}
-
-/// Why a tree can't be built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum BuildError {
-    /// The words don't suffice.
-    Words,
-    /// The scratch memory doesn't suffice.
-    Scratch,
-    /// A shape reaches beyond ±2²⁷ steps, or its numbers make no sense.
-    Extent,
-    /// More shapes than there are ids.
-    TooManyShapes,
-}
-
-impl BuildError {
-    /// What is wrong, in words: for `const` panics and logs.
-    pub const fn message(self) -> &'static str {
-        match self {
-            Self::Words => "too few words for the octree",
-            Self::Scratch => "too little scratch memory to build the octree",
-            Self::Extent => "a shape is out of the octree's range",
-            Self::TooManyShapes => "an octree holds at most 8388607 shapes",
-        }
-    }
-}
-
-impl fmt::Display for BuildError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl core::error::Error for BuildError {}
-
-/// By how much cells are enlarged.
-const fn margin(grid: &Grid, precision: u8) -> i32 {
-    let precision = if precision > 24 { 24 } else { precision };
-    ((1i64 << (grid.shift + 11)) >> precision) as i32 + MARGIN_STEPS
-}
 
 /// The box around all extents.
 const fn bounds_of(extents: &[Extent]) -> Result<([i32; 3], [i32; 3]), BuildError> {
@@ -154,94 +48,6 @@ const fn bounds_of(extents: &[Extent]) -> Result<([i32; 3], [i32; 3]), BuildErro
         i += 1;
     }
     Ok((min, max))
-}
-
-/// How large the shapes' boxes are together, a unit being 2^`shift` steps, each as often as its test
-/// costs.
-struct Sizes {
-    shift: u32,
-    costs: u64,
-    lengths: u64,
-    areas: u64,
-    volumes: u64,
-}
-
-impl Sizes {
-    /// Nine bits are left of the largest size: the cube of a side times eight million costs fits 64 bits.
-    const fn of(extents: &[Extent], largest: i32) -> Self {
-        let mut shift = 0;
-        while largest >> shift > 1 << 9 {
-            shift += 1;
-        }
-        let mut all = Self { shift, costs: 0, lengths: 0, areas: 0, volumes: 0 };
-        let mut i = 0;
-        while i < extents.len() {
-            let (low, high) = bounds(&extents[i]);
-            let x = ((high[0] - low[0]) >> shift) as u32 + 1;
-            let y = ((high[1] - low[1]) >> shift) as u32 + 1;
-            let z = ((high[2] - low[2]) >> shift) as u32 + 1;
-            let cost = test_cost(extents, i) as u64;
-            all.costs += cost;
-            all.lengths += cost * (x + y + z) as u64;
-            all.areas += cost * (x * y + y * z + z * x) as u64;
-            all.volumes += cost * (x * y) as u64 * z as u64;
-            i += 1;
-        }
-        all
-    }
-
-    /// What testing all shapes in all cells of this side costs, times 16.
-    const fn tests(&self, side: i32) -> u64 {
-        let side = (side >> self.shift) as u64 + 1;
-        let all = ((self.costs * side + self.lengths) * side + self.areas) * side + self.volumes;
-        match all.checked_div((side * side * side) >> 4) {
-            Some(tests) => tests,
-            None => all,
-        }
-    }
-}
-
-/// The cheapest grid around a box of this size, with no more than `most` cells along an axis.
-const fn grid_of(extents: &[Extent], size: &[i32; 3], most: usize, precision: u8) -> Grid {
-    let mut largest = if size[0] > size[1] { size[0] } else { size[1] };
-    if size[2] > largest {
-        largest = size[2];
-    }
-    let sizes = Sizes::of(extents, largest);
-    let mut best = Grid::new([1; 3], 1);
-    let mut least = u64::MAX;
-    let mut n = 1;
-    while n <= most as i32 {
-        // The margin depends on the cells' side.
-        let mut grid = Grid::new([1; 3], 1);
-        let mut need = largest + 2 * margin(&grid, precision);
-        while (n as i64 * grid.side() as i64) < need as i64 && grid.shift < node::MOST_SHIFT {
-            let side = (need - 1) / n + 1;
-            grid = Grid::new([1; 3], side);
-            need = largest + 2 * margin(&grid, precision);
-        }
-        let mut axis = 0;
-        while axis < 3 {
-            let need = size[axis] + 2 * margin(&grid, precision);
-            while (grid.cells[axis] as i64 * grid.side() as i64) < need as i64
-                && grid.cells[axis] < MAX_CELLS as u8
-            {
-                grid.cells[axis] += 1;
-            }
-            axis += 1;
-        }
-        let [x, y, z] = [grid.cells[0] as u64, grid.cells[1] as u64, grid.cells[2] as u64];
-        let all = 16 * x * y * z * CELL_COST as u64 + sizes.tests(grid.side());
-        let cost = match (3 * all).checked_div(x * y + y * z + z * x) {
-            Some(cost) => cost,
-            None => all,
-        };
-        if cost < least {
-            (best, least) = (grid, cost);
-        }
-        n += 1;
-    }
-    best
 }
 
 /// The cube that holds the grid, centred on the box from `min` of this size.
@@ -328,15 +134,6 @@ const fn set(words: &mut [u32], index: usize, word: u32) {
 
 const fn octants(cell: &Cell, extents: &[Extent], id: u32) -> u32 {
     if (id as usize) < extents.len() { cell.octants(&extents[id as usize]) as u32 } else { 0 }
-}
-
-/// What a test of this shape costs.
-const fn test_cost(extents: &[Extent], id: usize) -> usize {
-    if id < extents.len() && matches!(extents[id], Extent::Sphere { .. }) {
-        SPHERE_COST
-    } else {
-        TEST_COST
-    }
 }
 
 /// Notes beside each id the octants it meets, and decides whether to cut the cell: its children,

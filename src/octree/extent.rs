@@ -1,9 +1,10 @@
 //! Where a shape lies, in whole numbers: what the builder, a const fn, can compute with.
 //!
-//! The numbers are in steps of a grid: 2⁻¹⁶ for fixed point, whose coordinates they are; for
+//! The numbers are in steps: 2⁻¹⁶ for fixed point, whose coordinates they are; for
 //! floating point a power of two chosen so that the scene spans about 2²⁶ steps.
 
-/// Where a shape lies, in steps of the grid; rounded to nearest, so the builder adds a margin.
+/// Where a shape lies, in steps: 2⁻¹⁶ in fixed point, a power of two of one's choice in floating point,
+/// such that the scene spans about 2²⁶ of them. Rounded to nearest, so the builder adds a margin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// Anywhere within a box.

@@ -5,14 +5,17 @@
 mod buffer;
 mod builder;
 mod extent;
+mod grid;
+mod limits;
 mod node;
 mod overlap;
 mod round;
 mod walk;
 
 pub use buffer::OctreeBuffer;
-pub use builder::{BuildError, Built, Cube, Limits, build_into};
+pub use builder::build_into;
 pub use extent::Extent;
+pub use limits::{BuildError, Built, Cube, Limits};
 pub use node::{MAX_ID_BITS, MAX_LEVELS, TreeError, validate};
 pub(crate) use overlap::bounds;
 pub use walk::{Octree, Visitor, WalkStack};

@@ -23,12 +23,11 @@
 //! ascending. So nothing is shared, a child comes after its parent, and one pass can
 //! [`validate`] words of any origin.
 
+use super::grid::Grid;
 use core::fmt;
 
 /// A leaf is at most this many levels below a cell of the grid.
 pub const MAX_LEVELS: usize = 12;
-/// The grid has no more cells along an axis: a bit for each in a row's word.
-pub(super) const MAX_CELLS: usize = 8;
 /// Ids of this many bits at most: the builder keeps a byte beside an id.
 pub const MAX_ID_BITS: u32 = 23;
 
@@ -94,69 +93,6 @@ pub(super) fn child(inner: u32, number: u32) -> Option<usize> {
         return None;
     }
     Some(first(inner) + population(children & (bit - 1)) as usize)
-}
-
-/// The root: so many cells along each axis, all cubes of one side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Grid {
-    pub(super) cells: [u8; 3],
-    /// A cell's side is `mantissa << shift` steps, the mantissa's highest bit set.
-    pub(super) mantissa: u8,
-    pub(super) shift: u8,
-}
-
-/// A cell's side has at least so many trailing zeros: it can be halved as often.
-pub(super) const LEAST_SHIFT: u8 = 6;
-pub(super) const MOST_SHIFT: u8 = 22;
-
-impl Grid {
-    /// So many cells of the side, which is rounded up.
-    pub(super) const fn new(cells: [u8; 3], side: i32) -> Self {
-        let mut shift = LEAST_SHIFT;
-        while shift < MOST_SHIFT && ((side - 1) >> shift) + 1 > 0xff {
-            shift += 1;
-        }
-        let mut mantissa = ((side - 1) >> shift) + 1;
-        mantissa = if mantissa < 0x80 { 0x80 } else { mantissa };
-        Self { cells, mantissa: if mantissa > 0xff { 0xff } else { mantissa as u8 }, shift }
-    }
-
-    /// A cell's side, in steps.
-    pub(super) const fn side(&self) -> i32 {
-        (self.mantissa as i32) << self.shift
-    }
-
-    /// The word of this grid.
-    pub(super) const fn word(&self) -> u32 {
-        let [x, y, z] = self.cells;
-        (x as u32 - 1)
-            | (y as u32 - 1) << 3
-            | (z as u32 - 1) << 6
-            | (self.mantissa as u32) << 9
-            | (self.shift as u32) << 17
-    }
-
-    /// The grid of a word, if it is one.
-    pub(super) const fn read(word: u32) -> Option<Self> {
-        let cells = [1 + (word & 7) as u8, 1 + (word >> 3 & 7) as u8, 1 + (word >> 6 & 7) as u8];
-        let (mantissa, shift) = ((word >> 9) as u8, (word >> 17 & 31) as u8);
-        if word >> 22 != 0 || mantissa < 0x80 || shift < LEAST_SHIFT || shift > MOST_SHIFT {
-            return None;
-        }
-        Some(Self { cells, mantissa, shift })
-    }
-
-    /// How many rows there are.
-    pub(super) const fn rows(&self) -> usize {
-        self.cells[1] as usize * self.cells[2] as usize
-    }
-
-    /// How often a cube would have to be halved for such cells.
-    pub(super) const fn levels(&self) -> u8 {
-        let [x, y, z] = self.cells;
-        let most = (x - 1) | (y - 1) | (z - 1);
-        8 - most.leading_zeros() as u8
-    }
 }
 
 /// A leaf whose ids are in a run.

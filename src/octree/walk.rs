@@ -22,8 +22,10 @@
 //! the builder's margin, so the shape was listed in a cell already seen.
 
 use super::OctreeBuffer;
-use super::builder::{Cube, LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
-use super::node::{self, Grid, IdWidth, MAX_LEVELS, TreeError, validate};
+use super::builder::{LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
+use super::grid::{self, Grid};
+use super::limits::Cube;
+use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 
 /// What a walk finds is its visitor's business.
@@ -126,7 +128,7 @@ const fn cube_fits(cube: &Cube, log2_step: i8, grid: &Grid) -> bool {
 
 for_each_arithmetic! {
     impl<'a> Octree<'a, A> {
-        /// The tree in these words over so many shapes, its grid of steps of 2^`log2_step`
+        /// The tree in these words over so many shapes, in steps of 2^`log2_step`
         /// (−16 for fixed point, whatever is given).
         ///
         /// # Errors
@@ -165,7 +167,7 @@ for_each_arithmetic! {
                 cell: make::from_grid(side, log2_step),
                 per_cell: make::per_cell(grid.mantissa, grid.shift, log2_step),
                 cells: n,
-                unit: grid.shift - node::LEAST_SHIFT,
+                unit: grid.shift - grid::LEAST_SHIFT,
                 width,
                 shapes: shapes as u32,
             })
@@ -241,13 +243,14 @@ impl<A: Arithmetic> Octree<'_, A> {
         }
         // For each axis the cell that the ray starts in, its exit, and where the ray leaves the grid.
         let (mut exits, mut whole, mut cell) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
+        let last = self.cells.map(|n| u32::from(n) - 1);
         for axis in 0..3 {
-            let last = u32::from(self.cells[axis]) - 1;
             let before = A::cells_before(o[axis], self.per_cell, self.unit);
-            let Some(more) = last.checked_sub(before) else { return };
+            let Some(more) = last[axis].checked_sub(before) else { return };
             let left = A::cells_long(self.cell, before + 1) - o[axis];
             (exits[axis], whole[axis]) = A::spans(left, self.cell, &pace[axis], self.unit);
-            let end = exits[axis] + A::spans_of(whole[axis], more);
+            // No later than the last cell's exit, so that no ray steps off the grid.
+            let end = A::spans_on(exits[axis], whole[axis], more);
             if end < bound {
                 bound = end;
             }
@@ -266,6 +269,10 @@ impl<A: Arithmetic> Octree<'_, A> {
         let Some(&(mut word)) = self.words.get(row as usize) else { return };
         loop {
             visitor.step();
+            debug_assert!(
+                x <= last[0] && row.wrapping_sub(1) < rows * (last[2] + 1),
+                "off the grid"
+            );
             if let Some(index) = node::child(word, x) {
                 let Some(&below) = self.words.get(index) else { return };
                 if node::is_leaf(below) {

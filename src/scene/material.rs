@@ -170,7 +170,7 @@ impl<A: Arithmetic> Pattern<A> {
         let mut odd = false;
         for i in 0..3 {
             if self.per[i] != A::NO_LENGTH {
-                odd ^= A::odd(p[i] - self.offset[i], self.per[i]);
+                odd ^= A::odd(A::endless_difference(p[i], self.offset[i]), self.per[i]);
             }
         }
         odd

@@ -345,7 +345,7 @@ mod tests {
         let mut p = Fixed::along(&ray.origin, t, &ray.direction);
         let local = floor.settle::<{ uses::ALL }>(&ray, t, &mut p).map(|x| x.to_num::<f64>());
         assert_eq!([local[0], local[1]], [2.0, -2.0]);
-        assert!((local[2] - (49152.0 - 32768.0)).abs() < 0.5, "{}", local[2]);
+        assert!((local[2] - (49152.0 - 65536.0)).abs() < 0.5, "{}", local[2]);
         let [x, y, z] = p.map(|x| x.to_num::<f64>());
         assert!(x == 2.0 && y == -2.0 && z > 1023.0 && z <= 1024.0);
 

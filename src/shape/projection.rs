@@ -155,6 +155,10 @@ impl<A: Arithmetic> Projection<A> {
             let ahead = (left > A::NO_LENGTH) == (speed > A::NO_UNIT);
             let off = if left > A::NO_LENGTH { left } else { -left };
             let step = A::ratio(off, slope);
+            // Wrong by as much as the range: it is none of the ray's, and the sum might not fit.
+            if step >= A::FAR {
+                return None;
+            }
             t = if ahead { t + step } else { t - step };
             if t <= A::NO_LENGTH || t > limit {
                 return None;

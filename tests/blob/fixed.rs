@@ -8,6 +8,8 @@ mod groups;
 mod kinds;
 #[path = "picture.rs"]
 mod picture;
+#[path = "tree.rs"]
+mod tree;
 
 type A = whitted::math::Fixed;
 

@@ -2,19 +2,16 @@
 
 use super::super::specs::{CORNERS, ERROR, LIGHTS, SETTING};
 use super::A;
-use super::kinds::STEP;
-use super::picture::{render, shown, written};
-use whitted::blob::{
-    Blob, BlobError, CameraSpec, Content, GroupContent, InstanceSpec, SelectionSpec, SettingSpec,
-};
+use super::picture::{assert_shows, read_plainly, setting, shown, written};
+use super::tree::{STEP, grown};
+use whitted::blob::{BlobError, Content, GroupContent, InstanceSpec, SelectionSpec, SettingSpec};
 use whitted::gather::{
     Indirect, VirtualLight, VirtualLightSpec, VirtualLights, VirtualLightsSettings,
     VirtualLightsSpec,
 };
-use whitted::octree::{Built, Cube, Extent, Limits, Octree, build_into};
+use whitted::octree::{Cube, Octree};
 use whitted::scene::{
-    Ambient, Background, Camera, Group, Instance, Light, Material, MaterialSpec, Parts, Rules,
-    Scene, Shapes, Transform,
+    Group, Instance, Light, Material, MaterialSpec, Parts, Shapes, Transform, uses,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Operand, Plane, Polygon, PolygonEdge, Region, Solid, Sphere,
@@ -62,7 +59,7 @@ pub(super) fn grouped() -> Grouped {
         planes: vec![Plane::<A>::new([0.0, 1.0, 0.0], -0.5, 2)],
         solids,
         operands,
-        words: vec![0; 1024],
+        words: vec![],
         cube: Cube { origin: [0; 3], log2_side: 0 },
         lights: vec![VirtualLight::NONE; 4],
     };
@@ -81,13 +78,7 @@ pub(super) fn grouped() -> Grouped {
         solids: &made.solids[0],
         ..Parts::EMPTY
     };
-    let extents: [Extent; 4] = parts.extents(STEP);
-    let mut scratch = vec![0; 1024];
-    let limits = Limits { levels: 2, ..Limits::DEFAULT };
-    let Built { words, cube, .. } =
-        build_into(&extents, &mut made.words, &mut scratch, limits).unwrap();
-    made.words.truncate(words);
-    made.cube = cube;
+    (made.words, made.cube) = grown::<4>(&parts, 2);
     made
 }
 
@@ -177,7 +168,7 @@ fn groups_solids_and_virtual_lights_are_read_as_they_were_written() {
     let settings = VirtualLightsSettings::<A>::new(USE);
     let materials = PLAIN.map(Material::<A>::new);
     let lights = [Light::<A>::new(LIGHTS[0])];
-    let scene = Scene::<A>::new(Parts {
+    let parts = Parts {
         polygons: own.polygons,
         edges: own.edges,
         solids: own.solids,
@@ -186,17 +177,10 @@ fn groups_solids_and_virtual_lights_are_read_as_they_were_written() {
         planes: &of.planes,
         materials: &materials,
         lights: &lights,
-        light_jitter: SETTING.light_jitter,
         indirect: Indirect::VirtualLights(VirtualLights::new(&of.lights, &settings)),
-        ambient: Ambient::<A>::new(SETTING.ambient),
-        background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.5; 3], [0.1, 0.2, 0.6]),
-        rules: Rules { specular_cosine: false, transmitters_reflect: true, ..Rules::COURSE },
-        ..Parts::EMPTY
-    })
-    .unwrap();
-    let CameraSpec { eye, at, up, tangent } = SETTING.camera;
-    let camera = Camera::<A>::try_look_at(eye, at, up, tangent).unwrap();
-    assert_eq!(shown(blob.bytes(), 48), Ok(render(&scene, &camera, 48)));
+        ..setting()
+    };
+    assert_shows(&blob, parts);
 }
 
 #[test]
@@ -235,12 +219,8 @@ fn what_is_wrong_with_groups_is_said() {
     assert!(matches!(wrong, BlobError::Value(_)));
     assert_eq!(said(&|c| c.cache = Some((&[], ERROR))), BlobError::Parts);
     // Without room for groups, and with a scene of a type that has none.
-    let blob = with_groups(&of, written);
-    let blob = Blob::<A>::open(blob.bytes()).unwrap();
-    let mut materials = [Material::<A>::new(MaterialSpec::BLACK); 4];
-    let mut lights = [Light::<A>::point([0.0; 3], [0.0; 3]); 4];
-    let scene: Result<Scene<'_, A>, _> = blob.scene(&mut materials, &mut lights);
-    assert!(matches!(scene.map(drop), Err(BlobError::RoomForGroups { .. })));
-    let scene = blob.scene::<{ whitted::scene::uses::VIRTUAL_LIGHTS }>(&mut materials, &mut lights);
-    assert!(matches!(scene.map(drop), Err(BlobError::Scene(_))));
+    let bare = with_groups(&of, read_plainly::<{ uses::ALL }>);
+    assert!(matches!(bare, Err(BlobError::RoomForGroups { .. })));
+    let plain = with_groups(&of, read_plainly::<{ uses::VIRTUAL_LIGHTS }>);
+    assert!(matches!(plain, Err(BlobError::Scene(_))));
 }

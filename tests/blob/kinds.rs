@@ -6,13 +6,14 @@ use super::super::specs::{
     TRIANGLE, UV,
 };
 use super::A;
-use super::picture::{render, shown, written};
-use whitted::blob::{ALIGNMENT, Blob, BlobError, CameraSpec, Content};
+use super::picture::{assert_shows, read_plainly, setting, shown, written};
+use super::tree::{STEP, grown};
+use whitted::blob::{ALIGNMENT, BlobError, Content};
 use whitted::gather::{Indirect, IrradianceCache, Record};
-use whitted::octree::{Built, Cube, Extent, Limits, Octree, build_into};
+use whitted::octree::{Cube, Octree};
 use whitted::scene::{
-    Absorption, Ambient, AreaLight, Background, Camera, Light, Material, MaterialSpec, Parts,
-    Rules, Scene, Selection, Shapes, Texture, TextureSpec, TriangleUv,
+    Absorption, AreaLight, Light, Material, MaterialSpec, Parts, Selection, Shapes, Texture,
+    TextureSpec, TriangleUv, uses,
 };
 use whitted::shape::{
     Cone, Cuboid, Cylinder, Disc, Plane, Polygon, PolygonEdge, SmoothTriangle, Sphere, Triangle,
@@ -34,8 +35,6 @@ pub(super) struct Kinds {
     words: Vec<u32>,
     cube: Cube,
 }
-
-pub(super) const STEP: i8 = -16;
 
 pub(super) fn kinds() -> Kinds {
     let normals = [[-0.2, 0.0, -1.0], [0.2, 0.0, -1.0], [0.0, 0.3, -1.0]];
@@ -60,10 +59,10 @@ pub(super) fn kinds() -> Kinds {
         planes: vec![Plane::<A>::new(up, -0.01, 2)],
         uvs: vec![TriangleUv::new(UV); 2],
         records: RECORDS.map(Record::<A>::new).to_vec(),
-        words: vec![0; 4096],
+        words: vec![],
         cube: Cube { origin: [0; 3], log2_side: 0 },
     };
-    let extents: [Extent; 9] = Parts::<A> {
+    let parts = Parts::<A> {
         spheres: &kinds.spheres,
         triangles: &kinds.triangles,
         smooth_triangles: &kinds.smooth,
@@ -73,14 +72,8 @@ pub(super) fn kinds() -> Kinds {
         cylinders: &kinds.cylinders,
         cones: &kinds.cones,
         ..Parts::EMPTY
-    }
-    .extents(STEP);
-    let mut scratch = vec![0; 4096];
-    let limits = Limits { levels: 3, ..Limits::DEFAULT };
-    let Built { words, cube, .. } =
-        build_into(&extents, &mut kinds.words, &mut scratch, limits).unwrap();
-    kinds.words.truncate(words);
-    kinds.cube = cube;
+    };
+    (kinds.words, kinds.cube) = grown::<9>(&parts, 3);
     kinds
 }
 
@@ -128,13 +121,12 @@ fn what_was_written_is_what_is_read() {
     let absorptions = ABSORPTIONS.map(|[a, b]| Absorption::<A>::new(a, b));
     let fan = AreaLight::<A>::fan::<3>(&LAMP);
     let area_lights = AREA_LIGHTS.map(|spec| AreaLight::<A>::new(spec));
-    let scene = Scene::<A>::new(Parts {
+    let parts = Parts {
         uvs: &kinds.uvs,
         textures: &textures,
         absorptions: &absorptions,
         area_lights: &area_lights,
         light_corners: &fan,
-        light_jitter: SETTING.light_jitter,
         selection: Selection::<A>::above(0.001),
         indirect: Indirect::Cache(IrradianceCache::<A>::new(&kinds.records, ERROR)),
         spheres: &kinds.spheres,
@@ -150,15 +142,9 @@ fn what_was_written_is_what_is_read() {
         tree: Some(tree),
         materials: &materials,
         lights: &lights,
-        ambient: Ambient::<A>::new(SETTING.ambient),
-        background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.5; 3], [0.1, 0.2, 0.6]),
-        rules: Rules { specular_cosine: false, transmitters_reflect: true, ..Rules::COURSE },
-        ..Parts::EMPTY
-    })
-    .unwrap();
-    let CameraSpec { eye, at, up, tangent } = SETTING.camera;
-    let camera = Camera::<A>::try_look_at(eye, at, up, tangent).unwrap();
-    assert_eq!(shown(blob.bytes(), 48), Ok(render(&scene, &camera, 48)));
+        ..setting()
+    };
+    assert_shows(&blob, parts);
 }
 
 #[test]
@@ -181,14 +167,9 @@ fn what_is_wrong_is_said() {
     let many = Content { lights: &[LIGHTS[0]; 5], ..content };
     let room = BlobError::Room { materials: 3, lights: 5 };
     assert_eq!(shown(written(&many).bytes(), 1), Err(room));
-    let none = Blob::<A>::open(written(&content).bytes()).map(|blob| {
-        let mut materials = [Material::<A>::new(MaterialSpec::BLACK); 4];
-        let mut lights = [Light::<A>::point([0.0; 3], [0.0; 3]); 4];
-        let scene: Result<Scene<'_, A>, _> = blob.scene(&mut materials, &mut lights);
-        scene.map(drop)
-    });
+    let none = read_plainly::<{ uses::ALL }>(&content);
     let wanted = BlobError::RoomBesides { area_lights: 2, fans: 3, textures: 3, absorptions: 1 };
-    assert_eq!(none, Ok(Err(wanted)));
+    assert_eq!(none, Err(wanted));
     let few = Content { textures: &TEXTURES[..2], ..content };
     assert!(matches!(shown(written(&few).bytes(), 1), Err(BlobError::Scene(_))));
     let steep = TextureSpec { height: f64::NAN, ..TEXTURES[2] };

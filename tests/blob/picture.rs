@@ -3,11 +3,11 @@
 use super::super::aligned::Aligned;
 use super::super::specs::{AREA_LIGHTS, SETTING};
 use super::A;
-use whitted::blob::{Blob, BlobError, Content, Room, seal};
+use whitted::blob::{Blob, BlobError, CameraSpec, Content, Room, seal};
 use whitted::frame::{Output, Renderer, Rgb888, Settings};
 use whitted::scene::{
-    Absorption, AreaLight, Camera, FanCorner, Group, Instance, Light, Material, MaterialSpec,
-    Pattern, Scene, Texture, TextureSpec,
+    Absorption, Ambient, AreaLight, Background, Camera, FanCorner, Group, Instance, Light,
+    Material, MaterialSpec, Parts, Pattern, Rules, Scene, Texture, TextureSpec,
 };
 use whitted::shape::{Operand, Solid};
 use whitted::trace::Work;
@@ -19,7 +19,34 @@ pub(super) fn written(content: &Content<'_, A>) -> Aligned {
     Aligned::of(&bytes)
 }
 
-pub(super) fn render(scene: &Scene<'_, A>, camera: &Camera<A>, side: u16) -> Vec<Rgb888> {
+/// A scene of nothing, with [`SETTING`]'s light and rules.
+pub(super) fn setting() -> Parts<'static, A> {
+    Parts {
+        light_jitter: SETTING.light_jitter,
+        ambient: Ambient::<A>::new(SETTING.ambient),
+        background: Background::<A>::gradient([0.0, 1.0, 0.0], [0.5; 3], [0.1, 0.2, 0.6]),
+        rules: Rules { specular_cosine: false, transmitters_reflect: true, ..Rules::COURSE },
+        ..Parts::EMPTY
+    }
+}
+
+/// Whether a blob shows what the scene of these parts shows, from [`SETTING`]'s camera.
+pub(super) fn assert_shows(blob: &Aligned, parts: Parts<'_, A>) {
+    let scene = Scene::<A>::new(parts).unwrap();
+    let CameraSpec { eye, at, up, tangent } = SETTING.camera;
+    let camera = Camera::<A>::try_look_at(eye, at, up, tangent).unwrap();
+    assert_eq!(shown(blob.bytes(), 48), Ok(render(&scene, &camera, 48)));
+}
+
+/// Reads a scene of a type with memory for materials and lights alone.
+pub(super) fn read_plainly<const USES: u64>(content: &Content<'_, A>) -> Result<(), BlobError> {
+    let blob = written(content);
+    let mut materials = [Material::<A>::new(MaterialSpec::BLACK); 4];
+    let mut lights = [Light::<A>::point([0.0; 3], [0.0; 3]); 4];
+    Blob::<A>::open(blob.bytes())?.scene::<USES>(&mut materials, &mut lights).map(drop)
+}
+
+fn render(scene: &Scene<'_, A>, camera: &Camera<A>, side: u16) -> Vec<Rgb888> {
     let settings = Settings { depth: SETTING.depth, ..Settings::new(side, side) };
     let mut work = Work::<A, 8>::new();
     let mut samples = [];

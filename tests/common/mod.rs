@@ -1,4 +1,4 @@
-//! What several tests need: single rays from plain numbers, and numbers back.
+//! What several tests need: tests in each arithmetic, single rays from plain numbers, and numbers back.
 #![allow(dead_code, unreachable_pub)]
 
 pub mod make;
@@ -85,4 +85,10 @@ pub fn radiance<A: FromF64>(
 /// An origin and the direction from there to a point.
 pub fn toward(eye: [f64; 3], at: [f64; 3]) -> ([f64; 3], [f64; 3]) {
     (eye, [0, 1, 2].map(|i| at[i] - eye[i]))
+}
+
+pub fn close<A: Arithmetic>(got: [f64; 3], exact: [f64; 3], tol: f64) {
+    for i in 0..3 {
+        assert!((got[i] - exact[i]).abs() <= tol, "{}: {got:?} for {exact:?}", A::NAME);
+    }
 }

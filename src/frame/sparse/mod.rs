@@ -229,7 +229,7 @@ impl<A: Arithmetic> Sparse<A> {
     #[inline(always)]
     pub(super) fn tell(&self, sample: Sample<A>, samples: &mut [Sample<A>]) {
         if let Some(place) = samples.get_mut(self.slot) {
-            *place = sample;
+            *place = sample.known();
         }
     }
 }

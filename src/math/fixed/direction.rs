@@ -14,7 +14,8 @@ fn align(v: &[i32; 3]) -> ([i32; 3], i32) {
         let up = up & 31;
         ([v[0] << up, v[1] << up, v[2] << up], up)
     } else {
-        ([v[0] >> 2, v[1] >> 2, v[2] >> 2], -2)
+        // No magnitude has 32 bits.
+        ([v[0] >> 1, v[1] >> 1, v[2] >> 1], -1)
     }
 }
 

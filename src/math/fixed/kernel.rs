@@ -51,6 +51,25 @@ fn project_narrow(v: &[i32; 3], d: &[i32; 3]) -> i32 {
     high.wrapping_add(low) >> 4
 }
 
+/// `Σ vᵢ·dᵢ / 2¹⁷` modulo 2³², exactly the 64-bit result of any v, |d| ≤ 1: for points that may lie
+/// beyond the range.
+#[inline(always)]
+pub(super) fn project_around(v: &[i32; 3], d: &[i32; 3]) -> i32 {
+    if cfg!(narrow_multiply) { project_around_narrow(v, d) } else { project_wide(v, d) }
+}
+
+/// As [`project_narrow`], but the four bits that would fall off the top have products of their own.
+#[inline(always)]
+fn project_around_narrow(v: &[i32; 3], d: &[i32; 3]) -> i32 {
+    let high = |i: usize| (v[i] >> 17).wrapping_mul(d[i]);
+    let middle = |i: usize| (v[i] >> 13 & 15).wrapping_mul(d[i]);
+    let low = |i: usize| (v[i] & 0x1fff).wrapping_mul(d[i]);
+    let high = high(0).wrapping_add(high(1)).wrapping_add(high(2));
+    let middle = middle(0).wrapping_add(middle(1)).wrapping_add(middle(2));
+    let low = low(0).wrapping_add(low(1)).wrapping_add(low(2)) >> 13;
+    high.wrapping_add(middle.wrapping_add(low) >> 4)
+}
+
 /// `x << n`, or `x >> −n` for a negative n; n in −31 to 31.
 #[inline(always)]
 pub(super) fn shift(x: i32, n: i32) -> i32 {
@@ -136,6 +155,16 @@ mod tests {
             let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt().max(1e-3);
             let d = d.map(|x| (x / length * 131072.0) as i32);
             prop_assert_eq!(project_narrow(&v, &d), project_wide(&v, &d));
+        }
+
+        #[test]
+        fn narrow_projections_of_any_vector_are_exact(
+            v in prop::array::uniform3(any::<i32>()),
+            d in prop::array::uniform3(-1.0f64..1.0),
+        ) {
+            let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt().max(1e-3);
+            let d = d.map(|x| (x / length * 131072.0) as i32);
+            prop_assert_eq!(project_around_narrow(&v, &d), project_wide(&v, &d));
         }
 
         #[test]

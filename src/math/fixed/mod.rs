@@ -18,15 +18,22 @@ mod kernel;
 mod light;
 mod place;
 mod round;
+mod types;
+mod walk;
 
 use bytemuck::AnyBitPattern;
 
 use super::root::{reciprocal_q28, sqrt_u32};
 use super::{Arithmetic, log, root};
-use crate::blob::stored_numbers;
 use ::fixed::types::extra::{U14, U17, U26};
 use ::fixed::{FixedI32, types::I16F16};
-use kernel::{length_times_unit, lengths, magnitude, project, units};
+use kernel::{length_times_unit, lengths, magnitude, project, project_around, units};
+use types::FixedFactor;
+pub use types::{
+    FixedBarycentric, FixedCoarse, FixedDecay, FixedDirectionCone, FixedEdge, FixedEta,
+    FixedExponent, FixedIntensity, FixedInverse, FixedOutline, FixedPace, FixedRadius,
+    FixedRotation, FixedScale, FixedSpot,
+};
 
 type Unit = FixedI32<U17>;
 type Weight = FixedI32<U14>;
@@ -36,145 +43,6 @@ type Aim = FixedI32<U26>;
 /// multiplier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
 pub struct Fixed;
-
-/// A radius of sixteen significant bits, and its reciprocal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
-#[repr(C)]
-pub struct FixedRadius {
-    /// The radius is `mantissa << shift`, in 2⁻¹⁶; squares are taken after the same shift.
-    mantissa: u16,
-    /// 2³²/normalised mantissa − 2¹⁶, seventeen bits with the first implied.
-    reciprocal: u16,
-    /// In steps of the coarse test, with what rounding can add to it.
-    coarse: u16,
-    shift: u8,
-    /// By how much the mantissa is short of sixteen bits.
-    missing: u8,
-}
-
-/// The reciprocal of a length: `mantissa_q15 · 2^exponent` per unit, mantissa in 1 to 2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FixedInverse {
-    mantissa_q15: u32,
-    exponent: i32,
-}
-
-/// `mantissa_q15 · 2^exponent`, mantissa in ½ to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
-#[repr(C)]
-pub struct FixedIntensity {
-    mantissa_q15: u16,
-    exponent: i16,
-}
-
-/// Phong's exponent in Q8.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FixedExponent(u32);
-
-/// η_i/η_t, and its square with sixteen significant bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FixedEta {
-    eta_q16: u32,
-    square: u16,
-    /// The square is `square · 2^(exponent − 16)`.
-    exponent: i8,
-}
-
-/// Binary orders of magnitude that a unit of length takes, in Q24.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FixedDecay(u32);
-
-/// See [`Arithmetic::Barycentric`]: each form is `p·(x >> shift) + q·(y >> shift)`, 1 standing
-/// at `14 + down` fraction bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
-#[repr(C)]
-pub struct FixedBarycentric {
-    second: [i16; 2],
-    third: [i16; 2],
-    second_down: u8,
-    third_down: u8,
-    shift: u8,
-}
-
-/// See [`Arithmetic::Outline`]: half the sides in steps of 2^(`shift` − 16).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
-#[repr(C)]
-pub struct FixedOutline {
-    half: [u16; 2],
-    shift: u8,
-}
-
-/// See [`Arithmetic::Edge`]: `normal·(x, y) + offset·2¹⁴`, not negative inside, x and y in the
-/// outline's steps; the larger component of the normal is ±2¹⁴.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AnyBitPattern)]
-#[repr(C)]
-pub struct FixedEdge {
-    normal: [i16; 2],
-    offset: i16,
-}
-
-stored_numbers!(FixedRadius { mantissa, reciprocal, coarse, shift, missing }
-    if |r| r.shift <= 9 && r.missing <= 11 && r.is_inverted());
-stored_numbers!(FixedBarycentric { second, third, second_down, third_down, shift }
-    if |f| f.second_down <= 16 && f.third_down <= 16 && f.shift <= 16
-        && f.second.iter().chain(&f.third).all(|x| x.unsigned_abs() <= 16384));
-stored_numbers!(FixedOutline { half, shift } if |o| o.shift <= 16 && o.half.iter().all(|&x| x <= 16385));
-// 10¹² is less than 2⁴⁰; the smallest that isn't null is more than 2⁻³⁰.
-stored_numbers!(FixedIntensity { mantissa_q15, exponent }
-    if |x| x.mantissa_q15 <= 1 << 15 && x.exponent.unsigned_abs() <= 40);
-stored_numbers!(FixedEdge { normal, offset }
-    if |e| e.normal.iter().all(|x| x.unsigned_abs() <= 16384));
-
-/// See [`Arithmetic::Spot`].
-#[derive(Clone, Copy, Debug)]
-pub struct FixedSpot {
-    x: i32,
-    y: i32,
-    slack_q14: i32,
-}
-
-/// See [`Arithmetic::Rotation`]: each entry is `high_q17` and `low_q30` together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FixedRotation {
-    high_q17: [[i32; 3]; 3],
-    low_q30: [[i16; 3]; 3],
-}
-
-/// See [`Arithmetic::Scale`]: the factor and its reciprocal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FixedScale {
-    factor: FixedFactor,
-    reciprocal: FixedFactor,
-}
-
-/// `mantissa_q30 · 2^exponent`, mantissa in 1 to 2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct FixedFactor {
-    mantissa_q30: u32,
-    exponent: i8,
-}
-
-/// A ray with Q12 directions.
-#[derive(Clone, Copy, Debug)]
-pub struct FixedCoarse {
-    o: [i32; 3],
-    d_q12: [i32; 3],
-}
-
-/// See [`Arithmetic::Pace`]: `y_q16·2^−down`.
-#[derive(Clone, Copy, Debug)]
-pub struct FixedPace {
-    y_q16: u32,
-    down: u32,
-}
-
-/// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least_q17`
-/// steps of the axis.
-#[derive(Clone, Copy, Debug)]
-pub struct FixedDirectionCone {
-    axis: [i32; 3],
-    least_q17: i32,
-}
 
 /// The way to a sphere loses this many bits in the coarse test.
 const COARSE_SHIFT: u32 = 9;
@@ -309,6 +177,16 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn endless_point(o: &[I16F16; 3], a: I16F16, b: Unit, d: &[Unit; 3]) -> [I16F16; 3] {
         horizon::endless_point(o, a, b, d)
+    }
+
+    #[inline(always)]
+    fn endless_difference(a: I16F16, b: I16F16) -> I16F16 {
+        a.wrapping_sub(b)
+    }
+
+    #[inline(always)]
+    fn endless_project(v: &[I16F16; 3], d: &[Unit; 3]) -> I16F16 {
+        I16F16::from_bits(project_around(&lengths(v), &units(d)))
     }
 
     #[inline(always)]
@@ -667,54 +545,22 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn pace(d: Unit) -> FixedPace {
-        // Slower than this, a ray drifts less than the margin that an octree's builder leaves; and what
-        // eight cells and a little take stays below 2³¹.
-        let d = if d.to_bits() < 9 { 9 } else { d.to_bits() as u32 };
-        let (m, z) = root::normalize_large(d << 14);
-        FixedPace { y_q16: reciprocal_q28(m) >> 12, down: 17u32.wrapping_sub(z) }
+        walk::pace(d)
     }
 
     #[inline(always)]
     fn takes(a: I16F16, pace: &FixedPace) -> I16F16 {
-        if a >= Self::FAR {
-            return Self::FAR;
-        }
-        // a·y/2¹³, below 2³¹ since a < 2²⁶
-        let bits = a.to_bits() as u32;
-        let p = (bits >> 13)
-            .wrapping_mul(pace.y_q16)
-            .wrapping_add((bits & 0x1fff).wrapping_mul(pace.y_q16) >> 13);
-        // and that times 2^(13 − down), down being 3 to 17
-        if pace.down >= 13 {
-            I16F16::from_bits((p >> (pace.down.wrapping_sub(13) & 31)) as i32)
-        } else if p >> (pace.down.wrapping_add(13) & 31) != 0 {
-            Self::FAR
-        } else {
-            I16F16::from_bits((p << (13u32.wrapping_sub(pace.down) & 31)) as i32)
-        }
+        walk::takes(a, pace)
     }
 
     #[inline(always)]
     fn spans(left: I16F16, cell: I16F16, pace: &FixedPace, unit: u8) -> (i32, i32) {
-        // Below 2¹⁴ times up to 2¹⁷.
-        let f = |a: I16F16| {
-            let a = (a.to_bits() >> (unit & 31)) as u32;
-            (a.wrapping_mul(pace.y_q16) >> (pace.down & 31)) as i32
-        };
-        (f(left), f(cell))
+        (walk::span_of(left, pace, unit), walk::span_of(cell, pace, unit))
     }
 
     #[inline(always)]
     fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
-        // Eleven bits hold eight cells; times thirteen: see `per_cell`.
-        let o = o.to_bits() >> (unit & 31) >> 6;
-        if (o as u32) < 1 << 11 {
-            (o as u32).wrapping_mul(per as u32) >> 20
-        } else if o < 0 {
-            0
-        } else {
-            u32::MAX
-        }
+        walk::cells_before(o, per, unit)
     }
 
     #[inline(always)]
@@ -728,8 +574,8 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn spans_of(s: i32, n: u32) -> i32 {
-        s.wrapping_mul(n as i32)
+    fn spans_on(first: i32, s: i32, n: u32) -> i32 {
+        first.wrapping_add(s.wrapping_mul(n as i32))
     }
 
     #[inline(always)]

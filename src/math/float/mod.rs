@@ -4,85 +4,13 @@
 //! IEEE targets give the same bits.
 
 mod constructors;
+mod types;
 
-use bytemuck::{AnyBitPattern, Pod};
-
-use super::Number;
 use super::{Arithmetic, root};
-use crate::blob::{stored_numbers, within};
-
-/// A radius and its reciprocal.
-#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
-#[repr(C)]
-pub struct FloatRadius<F: Pod> {
-    r: F,
-    reciprocal: F,
-}
-
-/// η_i/η_t.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatEta<F>(F);
-
-/// See [`Arithmetic::Barycentric`]: the coefficients of both linear forms, and what each must
-/// allow for every unit that a hit is off.
-#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
-#[repr(C)]
-pub struct FloatBarycentric<F: Pod> {
-    second: [F; 2],
-    third: [F; 2],
-    slack: [F; 2],
-    /// How far from the coordinates' origin the triangle reaches: its plane is rounded so.
-    reach: F,
-}
-
-/// See [`Arithmetic::Outline`]: half the sides of the rectangle, and how far from the
-/// coordinates' origin the polygon reaches.
-#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
-#[repr(C)]
-pub struct FloatOutline<F: Pod> {
-    half: [F; 2],
-    reach: F,
-}
-
-/// See [`Arithmetic::Edge`]: `normal·(x, y) + offset`, not negative inside.
-#[derive(Clone, Copy, Debug, PartialEq, AnyBitPattern)]
-#[repr(C)]
-pub struct FloatEdge<F: Pod> {
-    normal: [F; 2],
-    offset: F,
-}
-
-/// Whether all are numbers.
-fn finite<F: Number>(numbers: &[F]) -> bool {
-    within(numbers, f64::MAX)
-}
-
-stored_numbers!(for<F: Number> FloatRadius { r, reciprocal } if |x| finite(&[x.r, x.reciprocal]));
-stored_numbers!(for<F: Number> FloatBarycentric { second, third, slack, reach }
-    if |x| finite(&x.second) && finite(&x.third) && finite(&x.slack) && finite(&[x.reach]));
-stored_numbers!(for<F: Number> FloatOutline { half, reach } if |x| finite(&x.half) && finite(&[x.reach]));
-stored_numbers!(for<F: Number> FloatEdge { normal, offset } if |x| finite(&x.normal) && finite(&[x.offset]));
-
-/// See [`Arithmetic::Spot`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatSpot<F> {
-    at: [F; 2],
-    slack: F,
-}
-
-/// See [`Arithmetic::DirectionCone`]: those whose product with the axis is no less than `least`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatDirectionCone<F> {
-    axis: [F; 3],
-    least: F,
-}
-
-/// A factor and its reciprocal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloatScale<F> {
-    factor: F,
-    reciprocal: F,
-}
+pub use types::{
+    FloatBarycentric, FloatDirectionCone, FloatEdge, FloatEta, FloatOutline, FloatRadius,
+    FloatScale, FloatSpot,
+};
 
 macro_rules! float {
     ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, exp: $exp:path, eps: $eps:literal, slow: $slow:literal) => {
@@ -612,8 +540,10 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn spans_of(s: $f, n: u32) -> $f {
-                s * n as $f
+            fn spans_on(first: $f, s: $f, n: u32) -> $f {
+                // Seven sums may be rounded down, a product and a sum up.
+                let sum = first + s * n as $f;
+                sum - sum.abs() * (16.0 * $eps)
             }
 
             #[inline(always)]

@@ -154,7 +154,7 @@ fn leaves_hold_all_samples() {
 
 fn leaf_at(words: &[u32], count: usize, built: &Built, p: &[f64; 3]) -> Vec<u32> {
     let width = node::IdWidth::of(count).unwrap();
-    let grid = node::Grid::read(words[0]).unwrap();
+    let grid = grid::Grid::read(words[0]).unwrap();
     let mut side = f64::from(grid.side());
     let mut min = built.cube.origin.map(f64::from);
     let cell = [0, 1, 2].map(|i| ((p[i] - min[i]) / side) as usize);

@@ -1,6 +1,6 @@
 //! Trees as words: in a `static`, out of bounds, and made by somebody hostile.
 
-use super::node::Grid;
+use super::grid::Grid;
 use super::*;
 
 static EXTENTS: [Extent; 64] = {
@@ -198,26 +198,131 @@ impl<A: Arithmetic> Visitor<A> for Counter<A> {
     }
 }
 
+/// Whatever passes can be walked, in so many steps, and names no shape that isn't there.
+macro_rules! what_passes_can_be_walked {
+    ($name:ident, $a:ident, $make:ident) => {
+        proptest! {
+            #![proptest_config(ProptestConfig::with_cases(3000))]
+            #[test]
+            fn $name((words, count) in nearly_a_tree(), seed in 1u64.., step in -40i8..0) {
+                use crate::math::$make as make;
+                let mut random = Random(seed);
+                let step = if random.below(2) == 0 { STEP } else { step };
+                let origin = random.point(6e7).map(|x| x as i32);
+                let cube = Cube { origin, log2_side: 10 + random.below(22) as u8 };
+                let tree = Octree::<$a>::try_new(&words, count, &cube, step);
+                if tree.is_ok() {
+                    prop_assert!(validate(&words, count).is_ok());
+                }
+                let Ok(tree) = tree else { return Ok(()) };
+                let grid = words.first().and_then(|&word| Grid::read(word));
+                let grid = grid.unwrap_or(Grid::new([1; 3], 1));
+                let unit = 2f64.powi(i32::from(if stringify!($a) == "Fixed" { STEP } else { step }));
+                for _ in 0..20 {
+                    let reach = [1000.0, 10.0][random.below(2) as usize];
+                    let mut o = random.point(reach);
+                    let mut d = random.direction();
+                    // From a place in the grid, or towards it.
+                    let at = [0, 1, 2].map(|i| {
+                        let n = random.within(0.0, f64::from(grid.cells[i]));
+                        let n = if random.below(2) == 0 { n.round() } else { n };
+                        (f64::from(origin[i]) + n * f64::from(grid.side())) * unit
+                    });
+                    match random.below(4) {
+                        0 => {}
+                        1 => {
+                            let way = [0, 1, 2].map(|i| at[i] - o[i]);
+                            let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+                            d = if length > 0.0 { way.map(|x| x / length) } else { d };
+                        }
+                        _ => o = at,
+                    }
+                    match random.below(4) {
+                        0 => d = d.map(|x| x.signum() * (1f64 / 3.0).sqrt()),
+                        1 => {
+                            d = d.map(|x| x * 1e-5);
+                            d[random.below(3) as usize] = 1.0;
+                        }
+                        _ => {}
+                    }
+                    let o = o.map(|x| make::length(x.clamp(-1000.0, 1000.0)).unwrap());
+                    let d = d.map(|x| make::unit(x).unwrap());
+                    let limit = <$a>::FAR;
+                    let mut counter = Counter::<$a> { visits: 0, shapes: count as u32, limit };
+                    tree.walk(&o, &d, &mut WalkStack::new(), &mut counter);
+                    prop_assert!(counter.visits <= 40 * words.len());
+                }
+            }
+        }
+    };
+}
+
+what_passes_can_be_walked!(walked_in_fixed, Fixed, fixed_constructors);
+what_passes_can_be_walked!(walked_in_f32, f32, f32_constructors);
+what_passes_can_be_walked!(walked_in_f64, f64, f64_constructors);
+
+/// Extents of any kind and size, at places that lie near one another or not.
+fn any_extents(random: &mut Random, count: usize) -> Vec<Extent> {
+    let reach = f64::from(1 << (4 + random.below(22)));
+    let spread = [1.0, 1e-3, 0.0][random.below(3) as usize];
+    let all = (0..count).map(|_| {
+        let at = random.point(reach * spread);
+        let r = reach * 10f64.powf(random.within(-3.0, 0.0));
+        let corner = |random: &mut Random| {
+            let by = random.point(r);
+            [0, 1, 2].map(|i| (at[i] + by[i]) as i32)
+        };
+        match random.below(4) {
+            0 => {
+                let (a, b) = (corner(random), corner(random));
+                Extent::Box {
+                    min: [0, 1, 2].map(|i| a[i].min(b[i])),
+                    max: [0, 1, 2].map(|i| a[i].max(b[i])),
+                }
+            }
+            1 => Extent::Triangle { corners: [corner(random), corner(random), corner(random)] },
+            2 => Extent::Round {
+                ends: [corner(random), corner(random)],
+                radii: [(r / 2.0) as i32, 0],
+                hollow: true,
+            },
+            _ => Extent::Sphere { center: at.map(|x| x as i32), radius: r as i32 },
+        }
+    });
+    all.collect()
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    /// What `build_into` says of its memory: never more scratch than stated; as much as was used is
+    /// enough, and one word less is an error.
     #[test]
-    fn what_passes_can_be_walked((words, count) in nearly_a_tree(), seed in 1u64..) {
+    fn memory_is_bounded_and_stated(
+        seed in 1u64.., count in 1usize..60, levels in 0u8..=12, leaf in 0u8..8, precision in 0u8..=30,
+    ) {
         let mut random = Random(seed);
-        let origin = random.point(6e7).map(|x| x as i32);
-        let cube = Cube { origin, log2_side: 10 + random.below(22) as u8 };
-        let tree = Octree::<Fixed>::try_new(&words, count, &cube, STEP);
-        if tree.is_ok() {
-            prop_assert!(validate(&words, count).is_ok());
-        }
-        let Ok(tree) = tree else { return Ok(()) };
-        for _ in 0..20 {
-            use crate::math::fixed_constructors as make;
-            let reach = [1000.0, 10.0][random.below(2) as usize];
-            let o = random.point(reach).map(|x| make::length(x).unwrap());
-            let d = random.direction().map(|x| make::unit(x).unwrap());
-            let mut counter = Counter { visits: 0, shapes: count as u32, limit: Fixed::FAR };
-            tree.walk(&o, &d, &mut WalkStack::new(), &mut counter);
-            prop_assert!(counter.visits <= 40 * words.len());
-        }
+        let extents = any_extents(&mut random, count);
+        let limits = Limits { levels, leaf, precision };
+        let most = (usize::from(levels) + 3) * count;
+        let (mut words, mut scratch) = (vec![0; 300_000], vec![0; most]);
+        let built = build_into(&extents, &mut words, &mut scratch, limits).unwrap();
+        prop_assert_eq!(validate(&words[..built.words], count), Ok(built.levels));
+        prop_assert!(built.levels <= levels.max(Grid::read(words[0]).unwrap().levels()));
+        let build = |words: usize, scratch: usize| {
+            build_into(&extents, &mut vec![0; words], &mut vec![0; scratch], limits)
+        };
+        prop_assert_eq!(build(built.words, built.scratch), Ok(built));
+        prop_assert_eq!(build(built.words - 1, most), Err(BuildError::Words));
+        prop_assert_eq!(build(300_000, built.scratch - 1), Err(BuildError::Scratch));
+    }
+}
+
+#[test]
+fn the_bound_of_scratch_is_reached() {
+    // One cell, and all shapes in the lists of the slab, of the row and of the cell.
+    let limits = Limits { levels: 0, ..Limits::DEFAULT };
+    for count in [1, 7, 40] {
+        let extents = vec![Extent::Sphere { center: [0; 3], radius: 100 }; count];
+        let built = build_into(&extents, &mut [0; 100], &mut vec![0; 3 * count], limits).unwrap();
+        assert_eq!(built.scratch, 3 * count);
     }
 }

@@ -36,7 +36,7 @@ pub use image::{Filter, Image, Texels, Wrap};
 pub use pattern::Pattern;
 pub use uv::TriangleUv;
 
-use crate::math::{Arithmetic, Rgb, cross_f64, for_each_arithmetic, rgb, sub, unit_f64};
+use crate::math::{Arithmetic, Rgb, cross_f64, for_each_arithmetic, rgb, unit_f64};
 use crate::shape::{ShapeError, ok_or_panic, point, some_or, unit_vector};
 use pattern::Kind;
 
@@ -140,8 +140,8 @@ impl<'a, A: Arithmetic> Texture<'a, A> {
             let [u, v] = uv.map(A::length_q16);
             return [part(0, u), part(1, v), 0];
         }
-        let p = sub(p, &self.origin);
-        let along = |i: usize| A::project(&p, &self.axes[i]);
+        let p = [0, 1, 2].map(|i| A::endless_difference(p[i], self.origin[i]));
+        let along = |i: usize| A::endless_project(&p, &self.axes[i]);
         let v = [along(0), along(1), along(2)];
         match self.mapping {
             Mapping::Spherical => {

@@ -47,6 +47,32 @@ fn planar_coordinates() {
     all(floor, [0.5, -0.5, 1.5], [0.0; 2], 1.0);
 }
 
+/// A floor goes on beyond the range, where coordinates begin again after 65,536 units: a whole number of
+/// cells of a power of two.
+#[test]
+fn beyond_the_range() {
+    let spec = TextureSpec { origin: [1000.5, 2.0, -900.25], size: [4.0, 0.0, 4.0], ..RAMP };
+    for x in [-32_767.0, -20_001.5, 1_500.25, 16_390.75, 31_999.0, 32_767.5] {
+        for turn in [0.0, 2.5] {
+            let spec = TextureSpec { right: [turn, 0.0, -1.0], ..spec };
+            let p = [x, 2.0, 0.25 - x];
+            let exact = Texture::<f64>::new(spec).color(&p, [0; 2])[0];
+            let fixed = Texture::<Fixed>::new(spec).color(&p.map(Length::from_num), [0; 2])[0];
+            // An axis is known to 2⁻¹⁸; a ramp's end is its beginning.
+            let off = (fixed.to_num::<f64>() - exact).rem_euclid(1.0);
+            let most = if turn == 0.0 { 1e-3 } else { 0.1 };
+            assert!(off.min(1.0 - off) <= most, "{x} {turn}: {fixed}, not {exact}");
+        }
+    }
+    // Around an axis, however far.
+    let around =
+        TextureSpec { mapping: Mapping::Cylindrical, origin: [0.0; 3], size: [1.0; 3], ..RAMP };
+    for far in [3.0, 900.0, 15_000.0, 16_500.0, 32_000.0] {
+        all(around, [far, 0.0, -far], [0.0; 2], 0.125);
+        all(around, [-far, 0.0, 0.25 * far], [0.0; 2], 0.5 + 0.25f64.atan() / TAU);
+    }
+}
+
 #[test]
 fn around_a_sphere_and_a_cylinder() {
     let origin = [1.0, 1.0, 1.0];
