@@ -1,7 +1,7 @@
 //! The nearest hit along a ray.
 
 use super::meet::{meet, meet_any};
-use super::sight::{Sight, are_few};
+use super::sight::{Sight, are_few, each_ahead};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
@@ -173,22 +173,14 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
         if inwards && let Some(sphere) = shapes.spheres.get(left as usize) {
             best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
         }
-        let mut id = 0;
         if let Some(sight) = sight
             && are_few(scene)
         {
-            let mut ahead = sight.ahead(&ray.direction, shapes.spheres.len(), tally);
-            for sphere in shapes.spheres {
-                if ahead == 0 {
-                    break;
-                }
-                if ahead & 1 != 0 && id != left {
-                    best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
-                }
-                ahead >>= 1;
-                id += 1;
-            }
+            each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| if id != left {
+                best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
+            });
         } else {
+            let mut id = 0;
             for sphere in shapes.spheres {
                 tally.test();
                 if id != left {

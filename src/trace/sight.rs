@@ -9,12 +9,15 @@
 use crate::math::{Arithmetic, sub};
 use crate::scene::uses::{self, has};
 use crate::scene::{Scene, Source};
-use crate::tally::Tally;
 
 /// So many spheres have their cones remembered. A list of more is better off with an octree.
 pub(crate) const FEW: usize = 8;
 /// So many lights are.
 const LIGHTS: usize = 2;
+
+/// Whether all cones come before the first sphere: what is kept for a sphere's test then needn't make way for each
+/// cone, where registers are few. Elsewhere a sphere's cone comes right before its test.
+pub(super) const CONES_FIRST: bool = cfg!(narrow_multiply);
 
 /// What can be seen from a point.
 #[derive(Clone, Copy, Debug)]
@@ -49,18 +52,11 @@ impl<A: Arithmetic> Sight<A> {
         }
     }
 
-    /// A bit for each of the first spheres that a ray in a direction may meet. All cones come before the first
-    /// sphere: what is kept for that then needn't make way for each cone.
+    /// A bit for each of the first spheres that a ray in a direction may meet.
     #[inline(always)]
-    pub(super) fn ahead<T: Tally>(
-        &self,
-        direction: &[A::Unit; 3],
-        count: usize,
-        tally: &mut T,
-    ) -> u32 {
+    pub(super) fn ahead(&self, direction: &[A::Unit; 3], count: usize) -> u32 {
         let (mut found, mut bit) = (0, 1);
         for cone in self.cones.iter().take(count) {
-            tally.test();
             if A::in_cone(cone, direction) {
                 found |= bit;
             }
@@ -75,6 +71,41 @@ impl<A: Arithmetic> Sight<A> {
         shape < FEW as u32 && self.outside >> (shape & 7) & 1 != 0
     }
 }
+
+/// Does something with all spheres, and their numbers, that a ray in a direction may meet, of those that a point
+/// sees. A macro, since an iterator takes 4 to 8 % more instructions.
+macro_rules! each_ahead {
+    ($sight:expr, $spheres:expr, $direction:expr, $tally:expr, |$sphere:ident, $id:ident| $act:expr) => {
+        let mut spheres = $spheres.iter().zip(&$sight.cones);
+        let mut ahead = if $crate::trace::sight::CONES_FIRST {
+            $sight.ahead($direction, $spheres.len())
+        } else {
+            1
+        };
+        let mut $id = 0;
+        while ahead != 0
+            && let Some(($sphere, cone)) = spheres.next()
+        {
+            $tally.test();
+            let found = if $crate::trace::sight::CONES_FIRST {
+                ahead & 1 != 0
+            } else {
+                A::in_cone(cone, $direction)
+            };
+            if found {
+                $act;
+            }
+            if $crate::trace::sight::CONES_FIRST {
+                ahead >>= 1;
+            }
+            $id += 1;
+        }
+        for _ in spheres {
+            $tally.test();
+        }
+    };
+}
+pub(super) use each_ahead;
 
 /// What can be seen from the eye and from the first lights.
 #[derive(Clone, Copy, Debug)]

@@ -8,7 +8,7 @@
 use super::detail::absorbed;
 use super::meet::{meet_any, surface_at};
 use super::nearest::nearest;
-use super::sight::{Sight, are_few};
+use super::sight::{Sight, are_few, each_ahead};
 use super::work::{NO_SHAPE, Scratch};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
@@ -164,22 +164,16 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
         {
             return Some(left);
         }
-        let mut id = 0;
         if let Some(sight) = sight
             && are_few(scene)
         {
-            let mut ahead = sight.ahead(&ray.direction, shapes.spheres.len(), tally);
-            for sphere in shapes.spheres {
-                if ahead == 0 {
-                    break;
-                }
-                if ahead & 1 != 0 && id != left && sphere.blocks_likely::<USES>(ray, false, limit) {
+            each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| {
+                if id != left && sphere.blocks_likely::<USES>(ray, false, limit) {
                     return Some(id);
                 }
-                ahead >>= 1;
-                id += 1;
-            }
+            });
         } else {
+            let mut id = 0;
             for sphere in shapes.spheres {
                 tally.test();
                 if id != left && sphere.blocks::<USES>(ray, &coarse, false, limit) {
