@@ -8,13 +8,14 @@ use crate::machine;
 use crate::shell::boards;
 
 /// Boards with a display of their own, or a scene: the directory, which the program is named after, and the target.
-const OTHERS: [(&str, &str); 6] = [
+const OTHERS: [(&str, &str); 7] = [
     ("pico", "thumbv6m-none-eabi"),
     ("pico-async", "thumbv6m-none-eabi"),
     ("pico2", "thumbv8m.main-none-eabihf"),
     ("stm32f4", "thumbv7em-none-eabihf"),
     ("microbit-v2", "thumbv7em-none-eabihf"),
     ("room", "thumbv7m-none-eabi"),
+    ("baked", "thumbv7m-none-eabi"),
 ];
 
 /// The programs that are nothing but a tracer.
