@@ -147,8 +147,7 @@ pub(crate) const fn has_others(uses: u64) -> bool {
 }
 
 /// Whether spheres and planes have a copy of the shading each: where there is nothing else, the spheres in
-/// a list. Not on cores that multiply 32 bits alone: their code is longer, and in a firmware of several scenes
-/// the tracer would become a function that reads the scene from memory.
+/// a list.
 #[inline(always)]
 pub(crate) const fn splits_shading(uses: u64) -> bool {
     let alone = !has_others(uses) && !has(uses, TREE) && !has(uses, INSTANCES);
