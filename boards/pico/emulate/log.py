@@ -57,6 +57,11 @@ def message(words, frame):
     def argument(match):
         nonlocal frame
         kind = match.group(1)
+        if kind is None:
+            # Something with a format of its own, whose words come first; here what `Display` makes of it.
+            own, frame = words.get(int.from_bytes(frame[:2], "little")), frame[2:]
+            text, _, frame = frame.partition(b"\xff")
+            return text.decode(errors="replace") if own == "{=__internal_Display}" else match.group(0)
         if kind != "str" and kind not in sizes:
             # A kind that is not known here: the rest can't be read.
             frame = b""
@@ -68,4 +73,4 @@ def message(words, frame):
         text, frame = frame[:number], frame[number:]
         return text.decode(errors="replace")
 
-    return re.sub(r"\{=(\w+)\}", argument, words.get(address, f"message {address}"))
+    return re.sub(r"\{(?:=(\w+))?\}", argument, words.get(address, f"message {address}"))
