@@ -4,7 +4,7 @@ use crate::frame::{Dither, FrameError, Output, Passes, Pixel, Progress, Renderer
 use crate::frame::{Gray1, Gray4, Gray8, Rgb565, Rgb888};
 use crate::frame::{Sample, Settings};
 use crate::math::Arithmetic;
-use crate::scene::{Camera, Scene, uses};
+use crate::scene::{Camera, Scene, SceneRef};
 use crate::tally::Tally;
 use crate::trace::Work;
 use core::cell::Cell;
@@ -75,24 +75,20 @@ impl Color for eg::BinaryColor {
 /// `Image::new(&picture, position).draw(&mut display)`.
 ///
 /// Only what the target's bounding box shows is traced, in one contiguous fill.
-pub struct Picture<
-    'a,
-    A: Arithmetic,
-    C,
-    const MAX_DEPTH: usize,
-    T = (),
-    const USES: u64 = { uses::ALL },
-> {
+pub struct Picture<'a, A: Arithmetic, C, const MAX_DEPTH: usize, T = (), S = &'a Scene<'a, A>> {
     /// Drawing borrows the picture, tracing changes the working memory: it is taken out for the
     /// time and put back.
-    renderer: Cell<Option<Renderer<'a, A, MAX_DEPTH, T, USES>>>,
+    renderer: Cell<Option<Renderer<'a, A, MAX_DEPTH, T, S>>>,
     settings: Settings,
     output: Output,
     color: PhantomData<C>,
 }
 
-impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, const USES: u64>
-    Picture<'a, A, C, MAX_DEPTH, (), USES>
+impl<'a, 's, A, C, const MAX_DEPTH: usize, S, const USES: u64> Picture<'a, A, C, MAX_DEPTH, (), S>
+where
+    A: Arithmetic,
+    C: Color,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// A picture of a scene in sRGB. `samples` is memory for
     /// [`Sampling::samples`](crate::frame::Sampling::samples) samples.
@@ -100,7 +96,7 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, const USES: u64>
     /// # Errors
     /// A size, depth or memory that doesn't fit.
     pub fn new(
-        scene: &'a Scene<'a, A, USES>,
+        scene: S,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
@@ -111,11 +107,15 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, const USES: u64>
     }
 }
 
-impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Picture<'a, A, C, MAX_DEPTH, T, USES>
+impl<'a, 's, A, C, const MAX_DEPTH: usize, T, S, const USES: u64> Picture<'a, A, C, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    C: Color,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// A picture of what a renderer renders.
-    pub fn from_renderer(renderer: Renderer<'a, A, MAX_DEPTH, T, USES>, output: Output) -> Self {
+    pub fn from_renderer(renderer: Renderer<'a, A, MAX_DEPTH, T, S>, output: Output) -> Self {
         let settings = *renderer.settings();
         Self { renderer: Cell::new(Some(renderer)), settings, output, color: PhantomData }
     }
@@ -128,7 +128,7 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: 
     }
 
     /// The renderer, with what it has counted.
-    pub fn into_renderer(self) -> Option<Renderer<'a, A, MAX_DEPTH, T, USES>> {
+    pub fn into_renderer(self) -> Option<Renderer<'a, A, MAX_DEPTH, T, S>> {
         self.renderer.into_inner()
     }
 
@@ -202,16 +202,21 @@ impl<'a, A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: 
     }
 }
 
-impl<A: Arithmetic, C, const MAX_DEPTH: usize, T, const USES: u64> OriginDimensions
-    for Picture<'_, A, C, MAX_DEPTH, T, USES>
+impl<A: Arithmetic, C, const MAX_DEPTH: usize, T, S> OriginDimensions
+    for Picture<'_, A, C, MAX_DEPTH, T, S>
 {
     fn size(&self) -> Size {
         Size::new(u32::from(self.settings.width), u32::from(self.settings.height))
     }
 }
 
-impl<A: Arithmetic, C: Color, const MAX_DEPTH: usize, T: Tally, const USES: u64> ImageDrawable
-    for Picture<'_, A, C, MAX_DEPTH, T, USES>
+impl<'s, A, C, const MAX_DEPTH: usize, T, S, const USES: u64> ImageDrawable
+    for Picture<'_, A, C, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    C: Color,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     type Color = C;
 

@@ -12,7 +12,7 @@ use whitted::shape::{Plane, Sphere};
 /// y is up. The scene's type names what it uses; code for anything else isn't compiled.
 pub(crate) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts {
+pub(crate) const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([-0.95, 1.15, 1.35], 1.15, MIRROR),
         Sphere::<A>::new([0.95, 0.72, -0.75], 0.72, GLASS),

@@ -1,6 +1,7 @@
 //! Pictures of something else than the scene: what `--show` offers.
 
 use whitted::frame::Renderer;
+use whitted::scene::Scene;
 use whitted::tally::Counts;
 use whitted::trace::{Tracer, Work};
 
@@ -25,7 +26,7 @@ pub enum Show {
 /// Paints it, through pixel centres.
 pub(crate) fn paint<A: Construct>(
     renderer: &mut Renderer<'_, A, MAX_DEPTH, Counts>,
-    tracer: &Tracer<'_, A>,
+    tracer: &Tracer<&Scene<'_, A>>,
     show: Show,
     out: &mut Picture,
     progress: &mut dyn FnMut(u32),

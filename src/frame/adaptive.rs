@@ -13,14 +13,18 @@ use super::corners::sum;
 use super::sample::{differ, differ_in_color};
 use super::{Renderer, Sample};
 use crate::math::{Arithmetic, Rgb, rgb};
+use crate::scene::{Scene, SceneRef};
 use crate::tally::Tally;
 use crate::trace::call_site;
 
 /// Of 4×4 cells, the four that go first; numbered row by row.
 const FIRST: [usize; 4] = [1, 7, 8, 14];
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Renderer<'_, A, MAX_DEPTH, T, USES>
+impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Renderer<'_, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// The pixel at (x, y).
     #[inline(never)]

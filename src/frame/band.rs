@@ -2,11 +2,15 @@
 
 use super::{Output, Pixel, Renderer, Settings};
 use crate::math::Arithmetic;
+use crate::scene::{Scene, SceneRef};
 use crate::tally::Tally;
 use crate::trace::call_site;
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Renderer<'_, A, MAX_DEPTH, T, USES>
+impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Renderer<'_, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// Fills `bytes` with the rows from `y` on, as many as fit wholly; returns how many rows, 0
     /// below the picture's end. With two buffers, one is sent while the other is filled.

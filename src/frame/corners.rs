@@ -6,6 +6,7 @@
 use super::renderer::Remembered;
 use super::{Renderer, Sample};
 use crate::math::{Arithmetic, Rgb, rgb};
+use crate::scene::{Scene, SceneRef};
 use crate::tally::Tally;
 use crate::trace::call_site;
 
@@ -18,8 +19,11 @@ pub(super) fn sum<A: Arithmetic>(four: &[Sample<A>; 4]) -> Rgb<A::Radiance> {
     rgb(&top, &bottom, A::gather)
 }
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Renderer<'_, A, MAX_DEPTH, T, USES>
+impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Renderer<'_, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// The mean of the pixel's corners.
     #[inline(never)]

@@ -11,6 +11,7 @@
 
 use super::{FrameError, Renderer, Sampling, Settings};
 use crate::math::{Arithmetic, Rgb};
+use crate::scene::{Scene, SceneRef};
 use crate::tally::Tally;
 use crate::trace::call_site;
 use core::convert::Infallible;
@@ -76,8 +77,11 @@ impl Passes {
     }
 }
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Renderer<'_, A, MAX_DEPTH, T, USES>
+impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Renderer<'_, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// Goes on with a render from coarse to fine, and gives `paint` each block that changes, until
     /// the picture is finished or `deadline`, asked before every block, says that time is up. It is

@@ -5,7 +5,7 @@ use super::sparse::{Answer, Sparse};
 use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, has};
-use crate::scene::{Camera, Row, Scene, View};
+use crate::scene::{Camera, Row, Scene, SceneRef, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
 use crate::trace::{Terms, Tracer, Work, call_site};
@@ -26,14 +26,8 @@ pub(super) struct Remembered {
 /// Rows may be asked for in any order and as often as one likes, each gives the same radiances;
 /// from top to bottom is the cheapest.
 #[derive(Debug)]
-pub struct Renderer<
-    'a,
-    A: Arithmetic,
-    const MAX_DEPTH: usize,
-    T = (),
-    const USES: u64 = { uses::ALL },
-> {
-    tracer: Tracer<'a, A, USES>,
+pub struct Renderer<'a, A: Arithmetic, const MAX_DEPTH: usize, T = (), S = &'a Scene<'a, A>> {
+    tracer: Tracer<S>,
     pub(super) view: View<A>,
     pub(super) settings: Settings,
     work: &'a mut Work<A, MAX_DEPTH>,
@@ -47,8 +41,10 @@ pub struct Renderer<
     pub(super) tally: T,
 }
 
-impl<'a, A: Arithmetic, const MAX_DEPTH: usize, const USES: u64>
-    Renderer<'a, A, MAX_DEPTH, (), USES>
+impl<'a, 's, A, const MAX_DEPTH: usize, S, const USES: u64> Renderer<'a, A, MAX_DEPTH, (), S>
+where
+    A: Arithmetic,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// A renderer that counts nothing. `samples` is memory for [`Sampling::samples`] samples;
     /// what it holds doesn't matter.
@@ -58,7 +54,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, const USES: u64>
     // In line, so that what draws knows which scene it is.
     #[inline(always)]
     pub fn new(
-        scene: &'a Scene<'a, A, USES>,
+        scene: S,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
@@ -68,8 +64,11 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, const USES: u64>
     }
 }
 
-impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Renderer<'a, A, MAX_DEPTH, T, USES>
+impl<'a, 's, A, const MAX_DEPTH: usize, T, S, const USES: u64> Renderer<'a, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// A renderer that reports to `tally`.
     ///
@@ -77,7 +76,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     /// A size, depth, sampling or memory that doesn't fit.
     #[inline(always)]
     pub fn with_tally(
-        scene: &'a Scene<'a, A, USES>,
+        scene: S,
         camera: &Camera<A>,
         settings: Settings,
         work: &'a mut Work<A, MAX_DEPTH>,
@@ -100,7 +99,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         if samples.len() < needed {
             return Err(FrameError::Samples { needed });
         }
-        work.look(scene, camera.eye());
+        work.look(&scene, camera.eye());
         Ok(Self {
             tracer: Tracer::new(scene, depth).with_terms(terms),
             view: View::new(camera, width, height),
@@ -136,7 +135,7 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
         &mut self,
         columns: Range<u16>,
         rows: Range<u16>,
-    ) -> Scan<'_, 'a, A, MAX_DEPTH, T, USES> {
+    ) -> Scan<'_, 'a, A, MAX_DEPTH, T, S> {
         let columns = columns.start..columns.end.min(self.settings.width);
         let rows = rows.start..rows.end.min(self.settings.height);
         let row = self.view.row(rows.start, 128);
@@ -363,8 +362,8 @@ impl<'a, A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
 
 /// The pixels of an area, traced as they are taken: column, row, radiance.
 #[derive(Debug)]
-pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, const USES: u64> {
-    renderer: &'r mut Renderer<'a, A, MAX_DEPTH, T, USES>,
+pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, S> {
+    renderer: &'r mut Renderer<'a, A, MAX_DEPTH, T, S>,
     sparse: Sparse<A>,
     columns: Range<u16>,
     /// The current row and the end.
@@ -374,8 +373,11 @@ pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, const USES: u6
     begun: bool,
 }
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
-    Scan<'_, '_, A, MAX_DEPTH, T, USES>
+impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Scan<'_, '_, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     /// Goes to the start of the next row; `false` below the last.
     #[inline(always)]
@@ -395,8 +397,12 @@ impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64>
     }
 }
 
-impl<A: Arithmetic, const MAX_DEPTH: usize, T: Tally, const USES: u64> Iterator
-    for Scan<'_, '_, A, MAX_DEPTH, T, USES>
+impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Iterator
+    for Scan<'_, '_, A, MAX_DEPTH, T, S>
+where
+    A: Arithmetic,
+    T: Tally,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
 {
     type Item = (u16, u16, Rgb<A::Radiance>);
 

@@ -9,7 +9,7 @@ use super::visible::visible_beside;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, hash, largest, rgb, spread, sub};
 use crate::scene::uses::{self, has};
-use crate::scene::{AreaLight, Material, Scene};
+use crate::scene::{AreaLight, Material, Scene, SceneRef};
 use crate::shape::{Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 pub(super) use front::front_before;
@@ -47,12 +47,15 @@ impl<'s, A: Arithmetic> Point<'s, A> {
 
 /// What the point sends back along the ray of all area lights.
 #[inline(never)]
-pub(super) fn areas<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn areas<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     at: Point<'_, A>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Rgb<A::Radiance> {
+) -> Rgb<A::Radiance>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let mut sum = [A::BLACK; 3];
     let mut number = scene.parts.lights.len() as u16;
     for light in scene.parts.area_lights {
@@ -85,14 +88,17 @@ pub(super) fn expected<A: Arithmetic, const USES: u64>(
 }
 
 /// What the point sends back of one light's; `None` where the light can't reach it.
-pub(super) fn area<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn area<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     light: &AreaLight<A>,
     number: u16,
     at: &Point<'_, A>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Option<Rgb<A::Radiance>> {
+) -> Option<Rgb<A::Radiance>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let parts = &scene.parts;
     let normal = &at.surface.normal;
     let seen = Seen::from(light, parts.light_corners, &at.shadow.origin)?;

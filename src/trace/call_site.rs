@@ -1,7 +1,7 @@
 //! Where rays are traced from. A tracer that is called from one place the compiler puts in line there, and then it
-//! knows which scene is traced; called from two, it is a function that reads the scene from memory, and takes a
-//! third more cycles. So each site has a tracer of its own; ways of drawing that a firmware doesn't use
-//! cost nothing.
+//! knows which scene is traced, if it was given a reference; called from two, it is a function that reads the scene from memory,
+//! and takes a third more cycles. (A scene given as a type is known in either.) So each site has a tracer of its own; ways
+//! of drawing that a firmware doesn't use cost nothing.
 
 /// Wherever code is dearer than time.
 pub(crate) const ANY: u8 = 0;

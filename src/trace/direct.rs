@@ -7,7 +7,7 @@ use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, each, grey, has};
-use crate::scene::{Incident, Light, Material, Rules, Scene, Selection};
+use crate::scene::{Incident, Light, Material, Rules, Scene, SceneRef, Selection};
 use crate::shape::{Leaving, Ray, Surface};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -32,13 +32,15 @@ pub(super) struct Shading<'s, A: Arithmetic> {
 
 /// Adds what the point sends back along the ray of each light's direct light.
 #[inline(always)]
-pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn direct<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     mut at: Shading<'_, A>,
     sum: &mut Rgb<A::Radiance>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) {
+) where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     if has(USES, uses::LIGHT_SELECTION) && !matches!(scene.parts.selection, Selection::All) {
         *sum = rgb(sum, &selected(scene, Point::of(&at), scratch, tally), A::gather);
         return;
@@ -55,14 +57,17 @@ pub(super) fn direct<A: Arithmetic, T: Tally, const USES: u64>(
 
 /// What one light adds, if it is visible.
 #[inline(always)]
-fn of_light<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn of_light<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     at: &mut Shading<'_, A>,
     light: &Light<A>,
     number: u16,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Option<Rgb<A::Radiance>> {
+) -> Option<Rgb<A::Radiance>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let sight = at.sights.filter(|_| may_be_few::<USES>());
     let sight = sight.and_then(|sights| sights.light(number));
     // Within an opaque sphere no light from outside arrives.

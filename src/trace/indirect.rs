@@ -5,8 +5,8 @@ use super::visible::visible;
 use super::work::{NO_LIGHT, Scratch};
 use crate::gather::{Indirect, VirtualLights};
 use crate::math::{Arithmetic, Rgb, rgb, sub};
-use crate::scene::Scene;
 use crate::scene::uses::{self, has};
+use crate::scene::{Scene, SceneRef};
 use crate::shape::Ray;
 use crate::tally::{RayKind, Tally};
 
@@ -25,12 +25,15 @@ pub(super) struct Spot<A: Arithmetic> {
 /// The irradiance that other surfaces send to a point, divided by π; `None` where the constant
 /// ambient term stands for it.
 #[inline(always)]
-pub(super) fn indirect<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn indirect<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     spot: Spot<A>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Option<Rgb<A::Radiance>> {
+) -> Option<Rgb<A::Radiance>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     match &scene.parts.indirect {
         Indirect::Cache(cache) if has(USES, uses::IRRADIANCE_CACHE) => {
             Some(cache.irradiance(spot.p, spot.normal))
@@ -44,13 +47,16 @@ pub(super) fn indirect<A: Arithmetic, T: Tally, const USES: u64>(
 
 /// What the virtual lights of a pixel's part send.
 #[inline(never)]
-fn virtual_lights<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn virtual_lights<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     lights: &VirtualLights<'_, A>,
     spot: Spot<A>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Rgb<A::Radiance> {
+) -> Rgb<A::Radiance>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let mut sum = [A::BLACK; 3];
     let mut ray = spot.ray;
     for light in lights.part(spot.turn) {
@@ -69,7 +75,7 @@ fn virtual_lights<A: Arithmetic, T: Tally, const USES: u64>(
         let irradiance = A::falloff(&light.intensity, &inverse);
         ray.direction = direction;
         // What lies behind an area light doesn't add to what the light sends itself.
-        if front_before(scene, &ray, distance).is_some() {
+        if front_before(&scene, &ray, distance).is_some() {
             continue;
         }
         tally.ray(RayKind::Shadow, spot.depth, &ray, &[A::FULL; 3]);

@@ -5,10 +5,10 @@ use super::sight::{Sight, are_few, each_ahead};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
-use crate::scene::{Scene, Shapes};
+use crate::scene::{Scene, SceneRef, Shapes, ShapesOf};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::Tally;
-use core::ops::Range;
+use core::ops::{Deref, Range};
 
 /// The nearest hit along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,14 +79,18 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 /// Goes on from the best hit so far with the tree, or with those shapes that nobody tests else.
 /// Out of line and by value, so that the short loops keep their numbers in registers.
 #[inline(never)]
-fn search<A: Arithmetic, T: Tally, const USES: u64>(
-    shapes: &Shapes<'_, A>,
+fn search<'s, A: Arithmetic, T: Tally, L, const USES: u64>(
+    shapes: L,
     rest: Range<u32>,
     ray: Ray<A>,
     best: Hit<A>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
-) -> Hit<A> {
+) -> Hit<A>
+where
+    L: Copy + Deref<Target = Shapes<'s, A>>,
+{
+    let shapes = &*shapes;
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, best, tally };
     if has(USES, uses::TREE)
@@ -103,13 +107,16 @@ fn search<A: Arithmetic, T: Tally, const USES: u64>(
 
 /// Goes on with the instances.
 #[inline(never)]
-fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn in_instances<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     ray: Ray<A>,
     mut best: Hit<A>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
-) -> Hit<A> {
+) -> Hit<A>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut first = scene.bounded;
     for instance in scene.parts.instances {
@@ -119,7 +126,7 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
             let limit = instance.distance_inside(&inside, best.distance);
             let none = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
             let rest = 0..group.count;
-            let hit = search::<A, T, USES>(&group.shapes, rest, inside.ray, none, walk, tally);
+            let hit = search::<A, T, _, USES>(&group.shapes, rest, inside.ray, none, walk, tally);
             if hit.shape != u32::MAX && hit.distance < A::FAR {
                 let distance = instance.distance_outside(&inside, hit.distance);
                 let id = first.wrapping_add(hit.shape);
@@ -137,14 +144,17 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
 /// The nearest hit in front of `limit`; the lowest number among equals. `sight` is what can be seen
 /// from where the ray starts, if that is known.
 #[inline(always)]
-pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(crate) fn nearest<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     ray: &Ray<A>,
     limit: A::Length,
     sight: Option<&Sight<A>>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
-) -> Option<Hit<A>> {
+) -> Option<Hit<A>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let (parts, shapes) = (&scene.parts, &scene.shapes);
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
@@ -174,7 +184,7 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
             best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
         }
         if let Some(sight) = sight
-            && are_few(scene)
+            && are_few(&scene)
         {
             each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| if id != left {
                 best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
@@ -190,10 +200,17 @@ pub(crate) fn nearest<A: Arithmetic, T: Tally, const USES: u64>(
             }
         }
         if has_others(USES) && count != scene.bounded {
-            best = search::<A, T, USES>(shapes, count..scene.bounded, *ray, best, walk, tally);
+            best = search::<A, T, _, USES>(
+                ShapesOf(scene),
+                count..scene.bounded,
+                *ray,
+                best,
+                walk,
+                tally,
+            );
         }
     } else {
-        best = search::<A, T, USES>(shapes, 0..0, *ray, best, walk, tally);
+        best = search::<A, T, _, USES>(ShapesOf(scene), 0..0, *ray, best, walk, tally);
     }
     if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
         best = in_instances(scene, *ray, best, walk, tally);

@@ -3,10 +3,15 @@
 use super::meet::surface_at;
 use super::{Hit, Tracer, Work};
 use crate::math::Arithmetic;
+use crate::scene::{Scene, SceneRef};
 use crate::shape::{Meeting, Ray, Surface};
 use crate::tally::Tally;
 
-impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
+impl<'s, A, S, const USES: u64> Tracer<S>
+where
+    A: Arithmetic,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     /// The surface at the nearest hit along a ray, seen from where the ray starts.
     pub fn surface<T: Tally, const MAX_DEPTH: usize>(
         &self,
@@ -17,6 +22,6 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
         let hit = self.nearest(ray, work, tally)?;
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        surface_at(self.scene, hit.shape, ray, &meeting, &mut p).map(|place| (hit, place.surface))
+        surface_at(&self.scene, hit.shape, ray, &meeting, &mut p).map(|place| (hit, place.surface))
     }
 }

@@ -15,8 +15,8 @@ use super::sight::may_be_few;
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
-use crate::scene::Scene;
 use crate::scene::uses::{self, grey, has, has_indirect, splits_shading};
+use crate::scene::{Scene, SceneRef};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -57,8 +57,8 @@ const RAY_STEP: u32 = 0xc2b2_ae3d;
 
 /// Traces rays in a scene, to a depth that its memory was made for.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
-    pub(super) scene: &'a Scene<'a, A, USES>,
+pub struct Tracer<S> {
+    pub(super) scene: S,
     depth: u8,
     /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
     pub(super) gathering: bool,
@@ -68,16 +68,20 @@ pub struct Tracer<'a, A: Arithmetic, const USES: u64 = { uses::ALL }> {
     turn: u8,
 }
 
-impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
+impl<'s, A, S, const USES: u64> Tracer<S>
+where
+    A: Arithmetic,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
     #[inline(always)]
-    pub fn new(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
+    pub fn new(scene: S, depth: u8) -> Self {
         Self { scene, depth, key: 0, turn: 0, gathering: false, terms: Terms::ALL }
     }
 
     /// A tracer for rays that gather irradiance: what they see of the lights is counted elsewhere.
     #[inline(always)]
-    pub(crate) fn gathering(scene: &'a Scene<'a, A, USES>, depth: u8) -> Self {
+    pub(crate) fn gathering(scene: S, depth: u8) -> Self {
         Self { gathering: true, ..Self::new(scene, depth) }
     }
 
@@ -177,7 +181,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         if !self.gathers() {
             return None;
         }
-        front_before(self.scene, ray, found.map_or(A::FAR, |hit| hit.distance))
+        front_before(&self.scene, ray, found.map_or(A::FAR, |hit| hit.distance))
     }
 
     /// The background's radiance in a direction, if it counts.
@@ -295,7 +299,7 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         let mut p = A::along(&path.ray.origin, hit.distance, &path.ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
         if !splits_shading(USES) {
-            let place = surface_at(scene, hit.shape, &path.ray, &meeting, &mut p)?;
+            let place = surface_at(&scene, hit.shape, &path.ray, &meeting, &mut p)?;
             return self.shade(path, hit, (place, p), from, sum, work, waiting, tally);
         }
         if let Some(sphere) = scene.shapes.spheres.get(hit.shape as usize) {
@@ -334,21 +338,21 @@ impl<'a, A: Arithmetic, const USES: u64> Tracer<'a, A, USES> {
         if has(USES, uses::TEXTURES)
             && let Some(texture) = material.texture()
         {
-            made = painted(scene, *material, texture, hit.shape, place.local);
+            made = painted(&scene, *material, texture, hit.shape, place.local);
             material = &made;
         }
         if has(USES, uses::BUMPS)
             && let Some(texture) = material.bump()
         {
             let direction = path.ray.direction;
-            surface = bumped(scene, texture, surface, hit.shape, place.local, direction);
+            surface = bumped(&scene, texture, surface, hit.shape, place.local, direction);
             mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
         }
         if has(USES, uses::ABSORPTION)
             && let Some(absorption) = material.absorption()
         {
             let way = hit.distance;
-            path.weight = detail::absorbed(scene, absorption, surface.behind, way, path.weight);
+            path.weight = detail::absorbed(&scene, absorption, surface.behind, way, path.weight);
         }
 
         let (some, whole) = (has(USES, uses::TERMS) && self.terms != Terms::ALL, material);

@@ -7,7 +7,7 @@ use super::visible::visible;
 use super::work::Scratch;
 use crate::math::{Arithmetic, Rgb, hash, largest, rgb, spread};
 use crate::scene::uses::{self, has};
-use crate::scene::{AreaLight, Incident, Light, Scene, Selection};
+use crate::scene::{AreaLight, Incident, Light, Scene, SceneRef, Selection};
 use crate::tally::{RayKind, Tally, Term};
 
 /// A light of either sort.
@@ -29,17 +29,20 @@ fn sources<'l, A: Arithmetic, const USES: u64>(
 
 /// What the point sends back along the ray of the lights it asks.
 #[inline(never)]
-pub(super) fn selected<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn selected<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     at: Point<'_, A>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Rgb<A::Radiance> {
+) -> Rgb<A::Radiance>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let mut sum = [A::BLACK; 3];
     match scene.parts.selection {
         Selection::Above(threshold) => {
-            for (number, source) in sources(scene) {
-                let expected = expected(scene, source, &at);
+            for (number, source) in sources(&scene) {
+                let expected = expected(&scene, source, &at);
                 if expected > A::BLACK && expected >= threshold {
                     let radiance = given(scene, source, number, &at, scratch, tally);
                     tally.term::<A>(Term::Direct { light: number }, &radiance);
@@ -50,15 +53,15 @@ pub(super) fn selected<A: Arithmetic, T: Tally, const USES: u64>(
         Selection::All | Selection::Choose(0) => {}
         Selection::Choose(count) => {
             let mut all = A::BLACK;
-            for (_, source) in sources(scene) {
-                all = A::gather(all, expected(scene, source, &at));
+            for (_, source) in sources(&scene) {
+                all = A::gather(all, expected(&scene, source, &at));
             }
             let seed = u32::from(scene.parts.light_jitter.unwrap_or(0)) << 16 | 0xffff;
             let mut choice = Choice::new(hash(spread(at.key, seed)), count);
             let mut target = choice.target::<A>(all);
             let mut up_to = A::BLACK;
-            for (number, source) in sources(scene) {
-                let expected = expected(scene, source, &at);
+            for (number, source) in sources(&scene) {
+                let expected = expected(&scene, source, &at);
                 up_to = A::gather(up_to, expected);
                 let mut times = 0u8;
                 while choice.made < count && target < up_to {
@@ -149,21 +152,24 @@ fn unshadowed<A: Arithmetic, const USES: u64>(
 }
 
 /// What a light does give.
-fn given<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn given<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     source: Source<'_, A>,
     number: u16,
     at: &Point<'_, A>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Rgb<A::Radiance> {
+) -> Rgb<A::Radiance>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let black = [A::BLACK; 3];
     match source {
         Source::Area(light) => {
             area::area(scene, light, number, at, scratch, tally).unwrap_or(black)
         }
         Source::Point(light) => {
-            let Some((incident, radiance)) = unshadowed(scene, light, at) else { return black };
+            let Some((incident, radiance)) = unshadowed(&scene, light, at) else { return black };
             let mut ray = at.shadow;
             ray.direction = incident.direction;
             tally.ray(RayKind::Shadow, at.depth, &ray, &at.weight);

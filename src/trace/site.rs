@@ -6,6 +6,7 @@ use super::meet::surface_at;
 use super::{Tracer, Work};
 use crate::math::{Arithmetic, Rgb, largest, neg};
 use crate::scene::uses::{self, has};
+use crate::scene::{Scene, SceneRef};
 use crate::shape::{Leaving, Meeting, Ray, Surface};
 use crate::tally::{RayKind, Tally};
 
@@ -28,7 +29,11 @@ impl<A: Arithmetic> Site<A> {
     }
 }
 
-impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
+impl<'s, A, S, const USES: u64> Tracer<S>
+where
+    A: Arithmetic,
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     /// The point that a ray finds; one that gathers ends at the front of an invisible area light.
     #[inline(never)]
     pub(crate) fn site<T: Tally, const MAX_DEPTH: usize>(
@@ -40,13 +45,13 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
     ) -> Option<Site<A>> {
         tally.ray(kind, 1, &ray, &[A::FULL; 3]);
         let hit = self.nearest(&ray, work, tally)?;
-        if self.gathering && front_before(self.scene, &ray, hit.distance).is_some() {
+        if self.gathering && front_before(&self.scene, &ray, hit.distance).is_some() {
             return None;
         }
         tally.hit::<A>(kind, hit.shape, hit.distance);
         let mut position = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let place = surface_at(self.scene, hit.shape, &ray, &meeting, &mut position)?;
+        let place = surface_at(&self.scene, hit.shape, &ray, &meeting, &mut position)?;
         let surface = place.surface;
         let material = self.scene.material_at(place.material, &place.local)?;
         let outside = Ray {
@@ -72,7 +77,7 @@ impl<A: Arithmetic, const USES: u64> Tracer<'_, A, USES> {
         }
         let diffuse = match material.texture() {
             Some(texture) if has(USES, uses::TEXTURES) => {
-                painted(self.scene, *material, texture, hit.shape, place.local).diffuse
+                painted(&self.scene, *material, texture, hit.shape, place.local).diffuse
             }
             _ => material.diffuse,
         };

@@ -13,10 +13,10 @@ use super::work::{NO_SHAPE, Scratch};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
-use crate::scene::{Scene, Shadow, Shapes};
+use crate::scene::{Scene, SceneRef, Shadow, Shapes, ShapesOf};
 use crate::shape::{Leaving, Meeting, Ray, Sphere};
 use crate::tally::{RayKind, Tally};
-use core::ops::Range;
+use core::ops::{Deref, Range};
 
 /// More sheets of glass than this between a point and a light are taken for opaque.
 const MAX_SHEETS: usize = 32;
@@ -89,14 +89,18 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
 /// Goes on with the tree, after the shape that stood in the way last, or with those shapes that
 /// nobody tests else. By value, as in the search for the nearest hit.
 #[inline(never)]
-fn search<A: Arithmetic, T: Tally, const USES: u64>(
-    shapes: &Shapes<'_, A>,
+fn search<'s, A: Arithmetic, T: Tally, L, const USES: u64>(
+    shapes: L,
     mut rest: Range<u32>,
     ray: Ray<A>,
     limit: A::Length,
     (walk, last): (&mut WalkStack<A>, &mut u32),
     tally: &mut T,
-) -> Option<u32> {
+) -> Option<u32>
+where
+    L: Copy + Deref<Target = Shapes<'s, A>>,
+{
+    let shapes = &*shapes;
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, limit, found: None, tally };
     if has(USES, uses::TREE)
@@ -115,13 +119,16 @@ fn search<A: Arithmetic, T: Tally, const USES: u64>(
 
 /// Goes on with the instances.
 #[inline(never)]
-fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn in_instances<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     ray: Ray<A>,
     limit: A::Length,
     walk: &mut WalkStack<A>,
     tally: &mut T,
-) -> Option<u32> {
+) -> Option<u32>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let mut first = scene.bounded;
     for instance in scene.parts.instances {
@@ -131,7 +138,8 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
             let limit = instance.distance_inside(&inside, limit);
             let rest = 0..group.count;
             let memory = (&mut *walk, &mut { NO_SHAPE });
-            let found = search::<A, T, USES>(&group.shapes, rest, inside.ray, limit, memory, tally);
+            let found =
+                search::<A, T, _, USES>(&group.shapes, rest, inside.ray, limit, memory, tally);
             if let Some(id) = found {
                 return Some(first.wrapping_add(id));
             }
@@ -144,14 +152,17 @@ fn in_instances<A: Arithmetic, T: Tally, const USES: u64>(
 /// The number of any shape along the ray nearer than `limit`. `sight` is what can be seen from where
 /// the ray ends, if that is known.
 #[inline(always)]
-fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn occluder<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     ray: &Ray<A>,
     limit: A::Length,
     sight: Option<&Sight<A>>,
     (walk, last): (&mut WalkStack<A>, &mut u32),
     tally: &mut T,
-) -> Option<u32> {
+) -> Option<u32>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let (parts, shapes) = (&scene.parts, &scene.shapes);
     let coarse = A::coarse(&ray.origin, &ray.direction);
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
@@ -165,7 +176,7 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
             return Some(left);
         }
         if let Some(sight) = sight
-            && are_few(scene)
+            && are_few(&scene)
         {
             each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| {
                 if id != left && sphere.blocks_likely::<USES>(ray, false, limit) {
@@ -185,7 +196,8 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
     }
     if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
         let rest = shapes.spheres.len() as u32..scene.bounded;
-        let found = search::<A, T, USES>(shapes, rest, *ray, limit, (walk, last), tally);
+        let found =
+            search::<A, T, _, USES>(ShapesOf(scene), rest, *ray, limit, (walk, last), tally);
         if found.is_some() {
             return found;
         }
@@ -213,15 +225,18 @@ fn occluder<A: Arithmetic, T: Tally, const USES: u64>(
 /// How much of the light of this number comes along the shadow ray from nearer than `limit`; `None`
 /// for nothing. `sight` is what can be seen from the light, if that is known.
 #[inline(always)]
-pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn visible<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     ray: &Ray<A>,
     limit: A::Length,
     light: u16,
     sight: Option<&Sight<A>>,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Option<Rgb<A::Weight>> {
+) -> Option<Rgb<A::Weight>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let (walk, last) = scratch.of_light(light);
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, NO_SHAPE, walk, tally);
@@ -237,15 +252,18 @@ pub(super) fn visible<A: Arithmetic, T: Tally, const USES: u64>(
 
 /// The same for a light on the surface of the shape `body`, which doesn't stand in its way.
 #[inline(never)]
-pub(super) fn visible_beside<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+pub(super) fn visible_beside<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     ray: &Ray<A>,
     limit: A::Length,
     light: u16,
     body: u32,
     scratch: &mut Scratch<A>,
     tally: &mut T,
-) -> Option<Rgb<A::Weight>> {
+) -> Option<Rgb<A::Weight>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let (walk, last) = scratch.of_light(light);
     if has(USES, uses::PASSING_SHADOWS) && !scene.opaque_shadows {
         return filtered(scene, *ray, limit, body, walk, tally);
@@ -268,14 +286,17 @@ pub(super) fn visible_beside<A: Arithmetic, T: Tally, const USES: u64>(
 
 /// The product of the coefficients of transmission along the straight line, up to the light's body.
 #[inline(never)]
-fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
-    scene: &Scene<'_, A, USES>,
+fn filtered<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
+    scene: S,
     mut ray: Ray<A>,
     limit: A::Length,
     body: u32,
     walk: &mut WalkStack<A>,
     tally: &mut T,
-) -> Option<Rgb<A::Weight>> {
+) -> Option<Rgb<A::Weight>>
+where
+    S: SceneRef<Target = Scene<'s, A, USES>>,
+{
     let mut share = [A::FULL; 3];
     let mut left = limit;
     for _ in 0..MAX_SHEETS {
@@ -285,13 +306,13 @@ fn filtered<A: Arithmetic, T: Tally, const USES: u64>(
         }
         let mut p = A::along(&ray.origin, hit.distance, &ray.direction);
         let meeting = Meeting { distance: hit.distance, detail: hit.detail };
-        let place = surface_at(scene, hit.shape, &ray, &meeting, &mut p)?;
+        let place = surface_at(&scene, hit.shape, &ray, &meeting, &mut p)?;
         let surface = place.surface;
         let material = scene.material_at(place.material, &place.local)?;
         if has(USES, uses::ABSORPTION)
             && let Some(absorption) = material.absorption()
         {
-            share = absorbed(scene, absorption, surface.behind, hit.distance, share);
+            share = absorbed(&scene, absorption, surface.behind, hit.distance, share);
         }
         match material.shadow {
             Shadow::None => {}

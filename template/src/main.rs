@@ -30,7 +30,7 @@ use whitted::trace::Work;
 mod scene {
     include!(concat!(env!("OUT_DIR"), "/scene.rs"));
 }
-use scene::{CAMERA, DEPTH, SCENE};
+use scene::{Baked, CAMERA, DEPTH};
 
 /// The display's pixels; as in `build.rs`.
 const SIZE: (u16, u16) = (240, 240);
@@ -89,7 +89,7 @@ fn main() -> ! {
     let mut work = Work::<scene::A, { DEPTH as usize }>::new();
     let settings = Settings { depth: DEPTH, ..Settings::new(SIZE.0, SIZE.1) };
     let picture = Picture::<_, Rgb565, { DEPTH as usize }, (), _>::new(
-        &SCENE,
+        Baked,
         &CAMERA,
         settings,
         &mut work,

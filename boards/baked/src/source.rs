@@ -17,7 +17,7 @@ mod scene {
     include!(env!("SOURCE"));
 }
 
-use scene::{CAMERA, DEPTH, SCENE, SIZE};
+use scene::{Baked, CAMERA, DEPTH, SIZE};
 
 /// The checksum of the host's picture, and its rays.
 const WANTED: &str = env!("SOURCE_WANTED");
@@ -31,7 +31,7 @@ const CLOCK_KHZ: u32 = 25_000;
 fn draw(board: &mut Board) -> Option<u64> {
     let mut work = Work::<scene::A, { DEPTH as usize }>::new();
     let settings = Settings { depth: DEPTH, ..Settings::new(SIZE.0, SIZE.1) };
-    let mut renderer = Renderer::new(&SCENE, &CAMERA, settings, &mut work, &mut []).ok()?;
+    let mut renderer = Renderer::new(Baked, &CAMERA, settings, &mut work, &mut []).ok()?;
     let mut line = [Rgb888::default(); SIZE.0 as usize];
     let mut sum = Checksum::EMPTY;
     for y in 0..SIZE.1 {

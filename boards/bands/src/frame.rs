@@ -9,6 +9,7 @@ use mipidsi::Display;
 use mipidsi::interface::InterfacePixelFormat;
 use mipidsi::models::Model;
 use whitted::frame::Rgb565;
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::job::SceneName;
@@ -75,7 +76,10 @@ impl<A: Shots> View<A> for Band<'_> {
     /// The tracer's memory is on the stack while a band is traced, and isn't kept in the task for
     /// the time in between.
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> u16 {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> u16
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let Frame { width, height, .. } = self.frame;
         let mut work = Work::<A, MAX_DEPTH>::new();
         let mut renderer = rgb565::renderer(&shot, width, height, &mut work);

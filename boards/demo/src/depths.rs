@@ -2,6 +2,7 @@
 
 use whitted::frame::{Renderer, Rgb888, Settings};
 use whitted::math::{Arithmetic, Fixed};
+use whitted::scene::{Scene, SceneRef};
 use whitted::tally::Tally;
 use whitted::trace::Work;
 
@@ -70,7 +71,10 @@ impl<A: Arithmetic, T: Tally + Copy, const DEPTH: usize> View<A> for Frame<T, DE
     type Output = (Checksum, T);
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> (Checksum, T)
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let mut work = Work::<A, DEPTH>::new();
         let settings = Settings { depth: DEPTH as u8, ..Settings::new(SIZE.0, SIZE.1) };
         let mut renderer =

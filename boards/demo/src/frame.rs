@@ -2,6 +2,7 @@
 
 use whitted::frame::{Renderer, Rgb888, Sample, Sampling, Settings};
 use whitted::math::{Arithmetic, Fixed};
+use whitted::scene::{Scene, SceneRef};
 use whitted::tally::{Counts, Tally};
 use whitted::trace::Work;
 
@@ -56,60 +57,69 @@ fn run<T: Tally + Copy + Default>(
 }
 
 /// A frame to draw.
-struct Frame<'a, W, S, T> {
+struct Frame<'a, W, F, T> {
     job: &'a Job,
     watch: &'a mut W,
-    show: S,
+    show: F,
     tally: T,
 }
 
-impl<A, W, S, T> View<A> for Frame<'_, W, S, T>
+impl<A, W, F, T> View<A> for Frame<'_, W, F, T>
 where
     A: Arithmetic,
     W: Watch,
-    S: FnMut(&[Rgb888]),
+    F: FnMut(&[Rgb888]),
     T: Tally + Copy,
 {
     type Output = (Checksum, T);
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> (Checksum, T)
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         self.draw_scene(&shot, &mut [])
     }
 }
 
 /// A frame to draw with room for samples.
-struct Sampled<'a, W, S, T>(Frame<'a, W, S, T>);
+struct Sampled<'a, W, F, T>(Frame<'a, W, F, T>);
 
-impl<A, W, S, T> View<A> for Sampled<'_, W, S, T>
+impl<A, W, F, T> View<A> for Sampled<'_, W, F, T>
 where
     A: Arithmetic,
     W: Watch,
-    S: FnMut(&[Rgb888]),
+    F: FnMut(&[Rgb888]),
     T: Tally + Copy,
 {
     type Output = (Checksum, T);
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> (Checksum, T) {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> (Checksum, T)
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         self.0.draw_scene(&shot, &mut [Sample::NONE; MAX_SAMPLES])
     }
 }
 
-impl<W, S, T> Frame<'_, W, S, T>
+impl<W, F, T> Frame<'_, W, F, T>
 where
     W: Watch,
-    S: FnMut(&[Rgb888]),
+    F: FnMut(&[Rgb888]),
     T: Tally + Copy,
 {
     /// # Panics
     /// Never: a job's size fits, and no scene is deeper than the memory.
     #[inline(always)]
-    fn draw_scene<A: Arithmetic, const USES: u64>(
+    fn draw_scene<A: Arithmetic, S, const USES: u64>(
         mut self,
-        shot: &Shot<A, USES>,
+        shot: &Shot<A, S>,
         samples: &mut [Sample<A>],
-    ) -> (Checksum, T) {
+    ) -> (Checksum, T)
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let job = self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();
         let mut settings = Settings::new(job.width, job.height);

@@ -6,6 +6,7 @@ use embedded_graphics::prelude::*;
 use whitted::Picture;
 use whitted::frame::{Dither, Output, Renderer, Settings};
 use whitted::math::Fixed;
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 
 use crate::frame::MAX_DEPTH;
@@ -33,14 +34,17 @@ impl<D: DrawTarget<Color = Gray4>> View<Fixed> for On<'_, D> {
     type Output = Result<(), D::Error>;
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) -> Result<(), D::Error> {
+    fn view<S, const USES: u64>(self, shot: Shot<Fixed, S>) -> Result<(), D::Error>
+    where
+        S: SceneRef<Target = Scene<'static, Fixed, USES>>,
+    {
         let mut work = Work::<Fixed, MAX_DEPTH>::new();
         let settings =
             Settings { depth: shot.depth, ..Settings::new(SIZE.width as u16, SIZE.height as u16) };
         let renderer = Renderer::new(shot.scene, shot.camera, settings, &mut work, &mut [])
             .expect("the memory fits");
         let output = Output { dither: Dither::Ordered, ..shot.output };
-        let picture = Picture::<_, Gray4, MAX_DEPTH, (), USES>::from_renderer(renderer, output);
+        let picture = Picture::<_, Gray4, MAX_DEPTH, (), S>::from_renderer(renderer, output);
         Image::new(&picture, Point::zero()).draw(self.0)
     }
 }

@@ -2,6 +2,7 @@
 
 use whitted::frame::{Renderer, Rgb565, Settings};
 use whitted::math::{Arithmetic, Fixed};
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 
 use crate::frame::MAX_DEPTH;
@@ -15,12 +16,15 @@ pub const BYTES: usize = 2;
 ///
 /// # Panics
 /// If a side is 0: no scene is deeper than the memory.
-pub fn renderer<'a, A: Arithmetic, const USES: u64>(
-    shot: &Shot<A, USES>,
+pub fn renderer<'a, A: Arithmetic, S, const USES: u64>(
+    shot: &Shot<A, S>,
     width: u16,
     height: u16,
     work: &'a mut Work<A, MAX_DEPTH>,
-) -> Renderer<'a, A, MAX_DEPTH, (), USES> {
+) -> Renderer<'a, A, MAX_DEPTH, (), S>
+where
+    S: SceneRef<Target = Scene<'static, A, USES>>,
+{
     let settings = Settings { depth: shot.depth, ..Settings::new(width, height) };
     Renderer::new(shot.scene, shot.camera, settings, work, &mut []).expect("a picture with sides")
 }
@@ -65,7 +69,10 @@ struct Bytes<'a> {
 impl<A: Arithmetic> View<A> for Bytes<'_> {
     type Output = ();
 
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>)
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let mut work = Work::new();
         let mut renderer = renderer(&shot, self.width, self.height, &mut work);
         renderer.band::<Rgb565>(0, &shot.output, self.bytes);

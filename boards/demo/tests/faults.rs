@@ -18,6 +18,7 @@ use mipidsi::{Builder, Display, NoResetPin};
 use whitted::Picture;
 use whitted::frame::Rgb565;
 use whitted::math::Fixed;
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::job::SceneName;
@@ -169,12 +170,15 @@ struct Frame<'a> {
 impl View<Fixed> for Frame<'_> {
     type Output = ();
 
-    fn view<const USES: u64>(self, shot: Shot<Fixed, USES>) {
+    fn view<S, const USES: u64>(self, shot: Shot<Fixed, S>)
+    where
+        S: SceneRef<Target = Scene<'static, Fixed, USES>>,
+    {
         let mut work = Work::new();
         let mut renderer = rgb565::renderer(&shot, WIDTH, HEIGHT, &mut work);
         match self.way {
             Way::Drawable => {
-                let picture = Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), USES>::from_renderer(
+                let picture = Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), S>::from_renderer(
                     renderer,
                     shot.output,
                 );

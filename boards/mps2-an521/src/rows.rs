@@ -6,6 +6,7 @@ use core::sync::atomic::{AtomicU8, AtomicU16, AtomicU32, Ordering};
 use cortex_m::peripheral::SYST;
 use whitted::frame::{Renderer, Rgb888, Settings};
 use whitted::math::{Arithmetic, Fixed};
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::checksum::Checksum;
 use whitted_demo::frame::MAX_DEPTH;
@@ -56,7 +57,10 @@ impl<A: Arithmetic> View<A> for Rows {
     type Output = u32;
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> u32 {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> u32
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let (width, height) = size();
         let mut work = Work::<A, MAX_DEPTH>::new();
         let settings = Settings { depth: shot.depth, ..Settings::new(width, height) };

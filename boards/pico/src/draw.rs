@@ -8,6 +8,7 @@ use embedded_graphics::prelude::*;
 use embedded_hal::digital::OutputPin;
 use whitted::Picture;
 use whitted::frame::{Renderer, Rgb565, Settings};
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::rgb565;
@@ -100,7 +101,10 @@ impl View<Number> for Graphics<'_> {
     type Output = Result<(), Fault>;
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<Number, USES>) -> Result<(), Fault> {
+    fn view<S, const USES: u64>(self, shot: Shot<Number, S>) -> Result<(), Fault>
+    where
+        S: SceneRef<Target = Scene<'static, Number, USES>>,
+    {
         let Shot { scene, camera, depth, output } = shot;
         let mut work = Work::<_, MAX_DEPTH>::new();
         let Frame { width, height, .. } = self.frame;
@@ -108,7 +112,7 @@ impl View<Number> for Graphics<'_> {
         let renderer = Renderer::new(scene, camera, settings, &mut work, &mut [])
             .expect("a picture with sides");
         let picture =
-            Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), USES>::from_renderer(renderer, output);
+            Picture::<_, pixelcolor::Rgb565, MAX_DEPTH, (), S>::from_renderer(renderer, output);
         Image::new(&picture, Point::zero()).draw(self.display)
     }
 }
@@ -165,7 +169,10 @@ impl View<Number> for Rows<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<Number, USES>) {
+    fn view<S, const USES: u64>(self, shot: Shot<Number, S>)
+    where
+        S: SceneRef<Target = Scene<'static, Number, USES>>,
+    {
         let Self { frame, source } = self;
         let mut work = Work::<_, MAX_DEPTH>::new();
         let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);

@@ -2,6 +2,7 @@
 
 use whitted::frame::{Renderer, Rgb565, Settings};
 use whitted::math::Arithmetic;
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::job::SceneName;
@@ -23,7 +24,10 @@ impl<A: Arithmetic> View<A> for Row<'_, A> {
     type Output = ();
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>)
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let Self { work, y, row } = self;
         let settings = Settings { depth: shot.depth, ..Settings::new(240, 240) };
         if let Ok(mut renderer) = Renderer::new(shot.scene, shot.camera, settings, work, &mut []) {

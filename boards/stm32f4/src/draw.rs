@@ -4,6 +4,7 @@ use core::iter;
 
 use whitted::frame;
 use whitted::math::{Arithmetic, Fixed};
+use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
 use whitted_demo::job::{ArithName, Job};
@@ -35,7 +36,10 @@ impl<A: Arithmetic> View<A> for Rows<'_> {
     type Output = Sent;
 
     #[inline(always)]
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> Sent {
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> Sent
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
         let Job { width, height, .. } = *self.job;
         let mut work = Work::<A, MAX_DEPTH>::new();
         let mut renderer = rgb565::renderer(&shot, width, height, &mut work);

@@ -44,47 +44,73 @@ const LIMIT_CUTOFF: <A as whitted::math::Arithmetic>::Weight = 4.5 / 256.0;
 /// The old programs' colours are display values.
 const LINEAR: Output = Output { tone: Tone::LINEAR, ..Output::SRGB };
 
+scene_types! {
+    Showcase = showcase;
+    Limit = limit;
+    Raystones = raystones;
+    Ftb = ftb;
+    Mirrors = mirrors;
+}
+#[cfg(all(
+    any(feature = "counted", not(target_os = "none")),
+    not(all(target_arch = "arm", target_abi = "eabi"))
+))]
+scene_types! {
+    Gfxcat = gfxcat;
+    Spheres64 = spheres64;
+}
+#[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
+scene_types! {
+    Bathroom = bathroom;
+}
+
 /// The limit scene with the code for every sampling, or for all but the sparse.
 static SAMPLED: Scene<A, { limit::PARTS.uses() | SAMPLINGS }> = Scene::tailored(limit::PARTS);
 
+whitted::scene_type! {
+    struct Sampled: Scene<'static, A, { limit::PARTS.uses() | SAMPLINGS }> = SAMPLED;
+}
+
 pub(super) fn sampled<V: View<A>>(view: V) -> V::Output {
-    view.view_parts(&SAMPLED, &limit::CAMERA, 4, LINEAR)
+    view.view_parts(Sampled, &limit::CAMERA, 4, LINEAR)
 }
 
 /// The limit scene with the code for sparse sampling.
 static SPARSE: Scene<A, { limit::PARTS.uses() | Sampling::SPARSE.uses() }> =
     Scene::tailored(limit::PARTS);
 
+whitted::scene_type! {
+    struct Sparse: Scene<'static, A, { limit::PARTS.uses() | Sampling::SPARSE.uses() }> = SPARSE;
+}
+
 pub(super) fn sparse<V: View<A>>(view: V) -> V::Output {
-    if SPARSE_APART { view.view_parts(&SPARSE, &limit::CAMERA, 4, LINEAR) } else { sampled(view) }
+    if SPARSE_APART { view.view_parts(Sparse, &limit::CAMERA, 4, LINEAR) } else { sampled(view) }
 }
 
 pub(super) fn mirrors<V: View<A>>(view: V) -> V::Output {
-    view.view_parts(&mirrors::SCENE, &mirrors::CAMERA, 8, Output::SRGB)
+    view.view_parts(Mirrors, &mirrors::CAMERA, 8, Output::SRGB)
 }
 
 #[inline(always)]
 pub(super) fn shot<V: View<A>>(name: SceneName, view: V) -> V::Output {
     match name {
-        SceneName::Showcase => {
-            view.view_parts(&showcase::SCENE, &showcase::CAMERA, 5, Output::SRGB)
-        }
-        SceneName::Limit => view.view_parts(&limit::SCENE, &limit::CAMERA, 4, LINEAR),
-        SceneName::Raystones => view.view_parts(&raystones::SCENE, &raystones::CAMERA, 3, LINEAR),
-        SceneName::Ftb => view.view_parts(&ftb::SCENE, &ftb::CAMERA, 3, LINEAR),
+        SceneName::Showcase => view.view_parts(Showcase, &showcase::CAMERA, 5, Output::SRGB),
+        SceneName::Limit => view.view_parts(Limit, &limit::CAMERA, 4, LINEAR),
+        SceneName::Raystones => view.view_parts(Raystones, &raystones::CAMERA, 3, LINEAR),
+        SceneName::Ftb => view.view_parts(Ftb, &ftb::CAMERA, 3, LINEAR),
         #[cfg(all(
             any(feature = "counted", not(target_os = "none")),
             not(all(target_arch = "arm", target_abi = "eabi"))
         ))]
-        SceneName::Gfxcat => view.view_parts(&gfxcat::SCENE, &gfxcat::CAMERA, 2, LINEAR),
+        SceneName::Gfxcat => view.view_parts(Gfxcat, &gfxcat::CAMERA, 2, LINEAR),
         #[cfg(all(
             any(feature = "counted", not(target_os = "none")),
             not(all(target_arch = "arm", target_abi = "eabi"))
         ))]
-        SceneName::Spheres64 => view.view_parts(&spheres64::SCENE, &spheres64::CAMERA, 1, LINEAR),
+        SceneName::Spheres64 => view.view_parts(Spheres64, &spheres64::CAMERA, 1, LINEAR),
         #[cfg(not(all(target_arch = "arm", target_abi = "eabi")))]
         SceneName::Bathroom => {
-            view.view_parts(&bathroom::SCENE, &bathroom::CAMERA, bathroom::DEPTH, Output::SRGB)
+            view.view_parts(Bathroom, &bathroom::CAMERA, bathroom::DEPTH, Output::SRGB)
         }
         // Not carried there: no job asks for them.
         #[cfg(all(target_arch = "arm", target_abi = "eabi"))]

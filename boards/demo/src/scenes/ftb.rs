@@ -13,7 +13,7 @@ use whitted::shape::{Plane, Sphere};
 
 pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts {
+pub(super) const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([5.0, 15.0, 8.0], 5.0, 0),
         Sphere::<A>::new([-6.0, 12.0, 4.0], 3.0, 0),

@@ -12,7 +12,7 @@ use whitted::shape::{Plane, Sphere};
 
 pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts {
+pub(super) const PARTS: Parts<A> = Parts {
     // On a circle of radius 15 about the y axis, a third of a turn apart.
     spheres: &[
         Sphere::<A>::new([-14.354, -8.0, -4.354], 6.0, 0),

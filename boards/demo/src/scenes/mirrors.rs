@@ -8,7 +8,7 @@ use whitted::shape::{Plane, Polygon, Sphere};
 
 pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts {
+pub(super) const PARTS: Parts<A> = Parts {
     spheres: &[Sphere::<A>::new([0.3, 1.0, 0.5], 0.6, 0)],
     polygons: &[Polygon::<A>::new(&LEFT, 0, 1), Polygon::<A>::new(&RIGHT, 4, 1)],
     edges: &EDGES,

@@ -6,20 +6,29 @@
 
 #![allow(clippy::duplicate_mod, reason = "each arithmetic needs the scenes anew")]
 
+/// A type for each scene, so that the compiler knows it wherever it is traced.
+macro_rules! scene_types {
+    ($($name:ident = $module:ident;)*) => { $(
+        whitted::scene_type! {
+            struct $name: Scene<'static, A, { $module::PARTS.uses() }> = $module::SCENE;
+        }
+    )* };
+}
+
 mod fixed;
 #[path = "f32.rs"]
 mod float;
 
 use whitted::frame::{Output, Sampling};
 use whitted::math::{Arithmetic, Fixed};
-use whitted::scene::{Camera, Scene};
+use whitted::scene::{Camera, Scene, SceneRef};
 
 use crate::job::SceneName;
 
 /// A scene, and how it is to be seen.
-pub struct Shot<A: Arithmetic, const USES: u64> {
+pub struct Shot<A: Arithmetic, S> {
     /// The scene.
-    pub scene: &'static Scene<'static, A, USES>,
+    pub scene: S,
     /// Where from.
     pub camera: &'static Camera<A>,
     /// How deep the tree of rays may be.
@@ -34,22 +43,23 @@ pub trait View<A: Arithmetic> {
     type Output;
 
     /// Does it. To be inlined into [`view_parts`](Self::view_parts).
-    fn view<const USES: u64>(self, shot: Shot<A, USES>) -> Self::Output;
+    fn view<S, const USES: u64>(self, shot: Shot<A, S>) -> Self::Output
+    where
+        S: SceneRef<Target = Scene<'static, A, USES>>;
 
-    /// The same, given the shot's parts one by one: the compiler then sees that they are always the
-    /// same statics, as they are in a firmware that draws but one scene, and reads them where they
-    /// are used, so long as nothing else in the image traces the scene. Not inlined, so that the stack
-    /// it takes is its own.
+    /// The same, given the shot's parts one by one: the compiler then sees that the camera is always the
+    /// same static, and reads it where it is used. Not inlined, so that the stack it takes is its own.
     #[inline(never)]
-    fn view_parts<const USES: u64>(
+    fn view_parts<S, const USES: u64>(
         self,
-        scene: &'static Scene<'static, A, USES>,
+        scene: S,
         camera: &'static Camera<A>,
         depth: u8,
         output: Output,
     ) -> Self::Output
     where
         Self: Sized,
+        S: SceneRef<Target = Scene<'static, A, USES>>,
     {
         self.view(Shot { scene, camera, depth, output })
     }

@@ -11,7 +11,7 @@ use whitted::shape::{Polygon, Sphere};
 
 pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts {
+pub(super) const PARTS: Parts<A> = Parts {
     spheres: &[
         Sphere::<A>::new([-3.0, 0.0, -16.0], 2.0, 0),
         Sphere::<A>::new([-1.0, -1.5, -12.0], 2.0, 1),

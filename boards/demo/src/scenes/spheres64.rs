@@ -12,7 +12,7 @@ const LOG2_STEP: i8 = -20;
 
 pub(super) static SCENE: Scene<A, { PARTS.uses() }> = Scene::tailored(PARTS);
 
-const PARTS: Parts<A> = Parts { tree: Some(TREE), ..LIST };
+pub(super) const PARTS: Parts<A> = Parts { tree: Some(TREE), ..LIST };
 
 const LIST: Parts<A> = Parts {
     spheres: &SPHERES,

@@ -87,6 +87,10 @@ impl<A: Construct> Baked<A> {
              /// The scene, compiled for what it uses alone.\n\
              pub static SCENE: whitted::scene::Scene<'static, A, {{ PARTS.uses() }}> =\n    \
              whitted::scene::Scene::tailored(PARTS);\n\n\
+             whitted::scene_type! {{\n    \
+             /// The scene as a type: the compiler knows it wherever it is traced.\n    \
+             pub struct Baked: whitted::scene::Scene<'static, A, {{ PARTS.uses() }}> = SCENE;\n\
+             }}\n\n\
              /// The camera.\npub static CAMERA: whitted::scene::Camera<A> =\n    \
              match whitted::scene::Camera::<A>::try_look_at({:?}, {:?}, {:?}, {:?}) {{\n        \
              Ok(camera) => camera,\n        Err(_) => panic!(\"the camera\"),\n    }};\n\n\
