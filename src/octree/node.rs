@@ -95,6 +95,24 @@ pub(super) fn child(inner: u32, number: u32) -> Option<usize> {
     Some(first(inner) + population(children & (bit - 1)) as usize)
 }
 
+/// A child's place, of which a row has so many, the first one's being [`FIRST_PLACE`]: by so many bits
+/// a word is to be rotated for the child's bit to be the highest.
+pub(super) const PLACES: u32 = 32;
+pub(super) const FIRST_PLACE: u32 = INDEX_BITS + 1;
+
+/// Whether the child at this place exists.
+#[inline(always)]
+pub(super) const fn exists(inner: u32, place: u32) -> bool {
+    (inner.rotate_right(place % PLACES) as i32) < 0
+}
+
+/// Where the word of the child at this place is, that exists.
+#[inline(always)]
+pub(super) const fn index(inner: u32, place: u32) -> usize {
+    let before = (1 << (place & 7)) - 1;
+    first(inner) + population(children(inner) & before) as usize
+}
+
 /// A leaf whose ids are in a run.
 pub(super) const fn leaf_of_run(first: usize) -> u32 {
     LEAF | MORE | (first as u32 & IDS)

@@ -25,7 +25,7 @@ use super::OctreeBuffer;
 use super::builder::{LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
 use super::grid::{self, Grid};
 use super::limits::Cube;
-use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
+use super::node::{self, FIRST_PLACE, IdWidth, MAX_LEVELS, PLACES, TreeError, validate};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 
 /// What a walk finds is its visitor's business.
@@ -256,34 +256,39 @@ impl<A: Arithmetic> Octree<'_, A> {
             }
             cell[axis] = if mirror >> axis & 1 != 0 { more } else { before };
         }
+        // Where the row's word is, and below, a cell's bit in it as a shift.
         let rows = u32::from(self.cells[1]);
         let step =
             |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
-        let (step_x, step_y, step_z) = (step(0, 1), step(1, 1), step(2, rows));
-        let mut row = cell[2].wrapping_mul(rows).wrapping_add(cell[1]).wrapping_add(1);
-        let mut x = cell[0];
+        let steps = [step(0, 1), step(1, PLACES), step(2, PLACES.wrapping_mul(rows))];
+        let row = cell[2].wrapping_mul(rows).wrapping_add(cell[1]).wrapping_add(1);
+        let mut place = row.wrapping_mul(PLACES).wrapping_add(cell[0]).wrapping_add(FIRST_PLACE);
         let [mut exit_x, mut exit_y, mut exit_z] = exits;
         let mut recent = [u32::MAX; RECENT];
-        let mut entry = A::NO_SPAN;
         visitor.node();
-        let Some(&(mut word)) = self.words.get(row as usize) else { return };
         loop {
             visitor.step();
             debug_assert!(
-                x <= last[0] && row.wrapping_sub(1) < rows * (last[2] + 1),
+                (place % PLACES).wrapping_sub(FIRST_PLACE) <= last[0]
+                    && (place / PLACES).wrapping_sub(1) < rows * (last[2] + 1),
                 "off the grid"
             );
-            if let Some(index) = node::child(word, x) {
-                let Some(&below) = self.words.get(index) else { return };
+            let Some(&word) = self.words.get((place / PLACES) as usize) else { return };
+            if node::exists(word, place) {
+                let Some(&below) = self.words.get(node::index(word, place)) else { return };
                 if node::is_leaf(below) {
-                    if self.visit_leaf(below, &mut recent, visitor) {
+                    if self.visit_leaf(below, &mut recent, back, &mut bound, visitor) {
                         return;
                     }
-                    let limit = A::span(visitor.limit() - back, self.unit);
-                    bound = if limit < bound { limit } else { bound };
                 } else {
                     let [grid, ..] = &mut stack.frames;
                     grid.ends = [exit_x, exit_y, exit_z];
+                    // Where the cell is entered: the walk hasn't kept it.
+                    let mut entry = A::NO_SPAN;
+                    for axis in 0..3 {
+                        let before = grid.ends[axis] - whole[axis];
+                        entry = if before > entry { before } else { entry };
+                    }
                     let way = Way { whole, back, mirror, entry, bound };
                     match self.walk_below(below, way, &mut recent, stack, visitor) {
                         Some(nearer) => bound = nearer,
@@ -293,31 +298,24 @@ impl<A: Arithmetic> Octree<'_, A> {
             }
             // On through the nearest face.
             if exit_x < exit_y && exit_x < exit_z {
-                entry = exit_x;
-                if entry >= bound {
+                if exit_x >= bound {
                     return;
                 }
                 exit_x = exit_x + whole[0];
-                x = x.wrapping_add(step_x);
-                continue;
-            }
-            if exit_y < exit_z {
-                entry = exit_y;
-                if entry >= bound {
+                place = place.wrapping_add(steps[0]);
+            } else if exit_y < exit_z {
+                if exit_y >= bound {
                     return;
                 }
                 exit_y = exit_y + whole[1];
-                row = row.wrapping_add(step_y);
+                place = place.wrapping_add(steps[1]);
             } else {
-                entry = exit_z;
-                if entry >= bound {
+                if exit_z >= bound {
                     return;
                 }
                 exit_z = exit_z + whole[2];
-                row = row.wrapping_add(step_z);
+                place = place.wrapping_add(steps[2]);
             }
-            let Some(&next) = self.words.get(row as usize) else { return };
-            word = next;
         }
     }
 
@@ -355,11 +353,9 @@ impl<A: Arithmetic> Octree<'_, A> {
                         word = below;
                         break;
                     }
-                    if self.visit_leaf(below, recent, visitor) {
+                    if self.visit_leaf(below, recent, back, &mut bound, visitor) {
                         return None;
                     }
-                    let limit = A::span(visitor.limit() - back, self.unit);
-                    bound = if limit < bound { limit } else { bound };
                 }
                 // On to the next child, of this node or of one above.
                 let frame = stack.frames.get(level)?;
@@ -394,6 +390,8 @@ impl<A: Arithmetic> Octree<'_, A> {
         &self,
         leaf: u32,
         recent: &mut [u32; RECENT],
+        back: A::Length,
+        bound: &mut A::Span,
         visitor: &mut V,
     ) -> bool {
         let (mut word, mut next) = (leaf, 0);
@@ -407,8 +405,15 @@ impl<A: Arithmetic> Octree<'_, A> {
                 // Large shapes lie in many cells.
                 if id != recent[id as usize % RECENT] {
                     recent[id as usize % RECENT] = id;
+                    let before = visitor.limit();
                     if visitor.visit(id) {
                         return true;
+                    }
+                    // Without a hit nothing is left of this.
+                    let limit = visitor.limit();
+                    if limit < before {
+                        let limit = A::span(limit - back, self.unit);
+                        *bound = if limit < *bound { limit } else { *bound };
                     }
                 }
             }
