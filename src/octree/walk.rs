@@ -394,14 +394,15 @@ impl<A: Arithmetic> Octree<'_, A> {
         bound: &mut A::Span,
         visitor: &mut V,
     ) -> bool {
+        // What of a run follows, 0 where nothing does.
         let (mut word, mut next) = (leaf, 0);
         if let Some(start) = node::run(leaf) {
             let Some(&first) = self.words.get(start) else { return false };
-            (word, next) = (first, start);
+            (word, next) = (first, if node::continues(first) { start + 1 } else { 0 });
         }
+        let mut ids = self.width.ids(word);
         loop {
-            let mut ids = self.width.ids(word);
-            while let Some(id) = ids.next() {
+            if let Some(id) = ids.next() {
                 // Large shapes lie in many cells.
                 if id != recent[id as usize % RECENT] {
                     recent[id as usize % RECENT] = id;
@@ -416,13 +417,14 @@ impl<A: Arithmetic> Octree<'_, A> {
                         *bound = if limit < *bound { limit } else { *bound };
                     }
                 }
+            } else {
+                if next == 0 {
+                    return false;
+                }
+                let Some(&word) = self.words.get(next) else { return false };
+                next = if node::continues(word) { next + 1 } else { 0 };
+                ids = self.width.ids(word);
             }
-            if !node::continues(word) {
-                return false;
-            }
-            next += 1;
-            let Some(&following) = self.words.get(next) else { return false };
-            word = following;
         }
     }
 }
