@@ -50,6 +50,13 @@ fn entry(table: &[u8; 256], m: u32) -> u32 {
     table[(m >> 24) as usize] as u32
 }
 
+/// 1 for 0, and 0 for others below 2³¹: without a branch.
+#[cfg(narrow_multiply)]
+#[inline(always)]
+fn none(x: u32) -> u32 {
+    x.wrapping_sub(1) >> 31
+}
+
 /// `x << z` with its top bit set, and `z`; for 0 the shift is 31.
 #[inline(always)]
 pub(crate) fn normalize(x: u32) -> (u32, u32) {
@@ -62,7 +69,7 @@ pub(crate) fn normalize(x: u32) -> (u32, u32) {
     {
         let a = ((x >> 16 == 0) as u32) << 4;
         let x = x << a;
-        let b = ((x >> 24 == 0) as u32) << 3;
+        let b = none(x >> 24) << 3;
         let x = x << b;
         let k = entry(&LEADING_ZEROS, x) & 7;
         (x << k, a + b + k)
@@ -78,7 +85,7 @@ pub(crate) fn normalize_large(x: u32) -> (u32, u32) {
     }
     #[cfg(narrow_multiply)]
     {
-        let b = ((x >> 24 == 0) as u32) << 3;
+        let b = none(x >> 24) << 3;
         let x = x << b;
         let k = entry(&LEADING_ZEROS, x) & 7;
         (x << k, b + k)
@@ -97,7 +104,7 @@ pub(crate) fn normalize_even(x: u32) -> (u32, u32) {
     {
         let a = ((x >> 16 == 0) as u32) << 4;
         let x = x << a;
-        let b = ((x >> 24 == 0) as u32) << 3;
+        let b = none(x >> 24) << 3;
         let x = x << b;
         let k = entry(&LEADING_ZEROS, x) & 6;
         (x << k, a + b + k)
