@@ -132,6 +132,21 @@ pub trait Shape<A: Arithmetic> {
         limit: A::Length,
     ) -> Option<Meeting<A>>;
 
+    /// The same for a ray that may start on it (`left`): it can't meet every shape again.
+    #[inline(always)]
+    fn nearest_from(
+        &self,
+        ray: &Ray<A>,
+        coarse: &A::Coarse,
+        left: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        if left && (Self::FLAT || Self::CONVEX && !ray.leaving.inwards) {
+            return None;
+        }
+        self.nearest(ray, coarse, left, limit)
+    }
+
     /// Whether anything of the shape lies in front of the ray's origin and nearer than `limit`.
     #[inline(always)]
     fn occludes(&self, ray: &Ray<A>, coarse: &A::Coarse, inwards: bool, limit: A::Length) -> bool {

@@ -238,6 +238,21 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         self.meet::<{ uses::ALL }>(ray, coarse, inwards, limit)
     }
 
+    /// Most rays miss: whether they start on it is asked afterwards.
+    #[inline(always)]
+    fn nearest_from(
+        &self,
+        ray: &Ray<A>,
+        coarse: &A::Coarse,
+        left: bool,
+        limit: A::Length,
+    ) -> Option<Meeting<A>> {
+        if !A::may_hit(coarse, &self.center, &self.radius, limit) || left && !ray.leaving.inwards {
+            return None;
+        }
+        self.meet_likely::<{ uses::ALL }>(ray, left, limit)
+    }
+
     #[inline(always)]
     fn occludes(&self, ray: &Ray<A>, coarse: &A::Coarse, inwards: bool, limit: A::Length) -> bool {
         self.blocks::<{ uses::ALL }>(ray, coarse, inwards, limit)

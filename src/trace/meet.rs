@@ -17,11 +17,7 @@ pub(super) fn meet<A: Arithmetic, S: Shape<A>>(
     coarse: &A::Coarse,
     limit: A::Length,
 ) -> Option<Meeting<A>> {
-    let left = id == ray.leaving.shape;
-    if left && (S::FLAT || S::CONVEX && !ray.leaving.inwards) {
-        return None;
-    }
-    shape.nearest(ray, coarse, left, limit)
+    shape.nearest_from(ray, coarse, id == ray.leaving.shape, limit)
 }
 
 /// The same for the bounded shape of any number.
