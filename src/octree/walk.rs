@@ -283,10 +283,11 @@ impl<A: Arithmetic> Octree<'_, A> {
                 } else {
                     let [grid, ..] = &mut stack.frames;
                     grid.ends = [exit_x, exit_y, exit_z];
-                    // Where the cell is entered: the walk hasn't kept it.
+                    // Where the cell is entered: the walk hasn't kept it. Floats round what is added and
+                    // taken off again, by less than 2⁻²⁰ of a cell: too early does no harm.
                     let mut entry = A::NO_SPAN;
                     for axis in 0..3 {
-                        let before = grid.ends[axis] - whole[axis];
+                        let before = grid.ends[axis] - whole[axis] - A::halved(whole[axis], 19);
                         entry = if before > entry { before } else { entry };
                     }
                     let way = Way { whole, back, mirror, entry, bound };
