@@ -31,6 +31,9 @@ const FILES: [&str; 7] = [
     "scene.toml",
     "src/main.rs",
 ];
+/// The copy's name. With the template's own, cargo would take what it has built of one for the other: it keeps both in
+/// one place, and tells packages apart by their names.
+const NAME: &str = "my-small-scene";
 /// Trees of rays that there is memory for here, whatever the scene asks for.
 const MAX_DEPTH: usize = 8;
 
@@ -39,12 +42,12 @@ pub(crate) fn check(report: &mut Report) {
     report.check(
         "template (rp2040py): a copy, its display smaller, gets the host's picture",
         || {
-            let copy = boards().join("target/tmp/my-scene");
+            let copy = boards().join("target/tmp").join(NAME);
             FILES.iter().try_for_each(|name| duplicate(name, &copy))?;
             // As it was linted: nothing else is to be built again.
             let words =
                 ["build", "-q", "--locked", "--target-dir", "../..", "--message-format=json"];
-            let image = machine::built(&mut cargo(&copy, words), "my-scene")?;
+            let image = machine::built(&mut cargo(&copy, words), NAME)?;
             let (there, here) = (emulate(&image)?, expected(&copy.join("scene.toml"))?);
             let wrong = there.iter().zip(&here).filter(|(there, here)| there != here).count();
             if there.len() == here.len() && wrong == 0 {
@@ -62,16 +65,18 @@ fn duplicate(name: &str, copy: &Path) -> Result<(), String> {
     let paths = format!("path = \"{}", root().display());
     let size = format!("({width}, {height})");
     let sides = format!("width: {width}, height: {height}");
-    let change = match name {
-        "Cargo.toml" => Some(("path = \"..", paths)),
-        "src/main.rs" => Some(("(240, 240)", size)),
-        "build.rs" => Some(("width: 240, height: 240", sides)),
-        _ => None,
+    let package = ("name = \"my-scene\"", format!("name = \"{NAME}\""));
+    let changes = match name {
+        "Cargo.toml" => vec![package, ("path = \"..", paths)],
+        "Cargo.lock" => vec![package],
+        "src/main.rs" => vec![("(240, 240)", size)],
+        "build.rs" => vec![("width: 240, height: 240", sides)],
+        _ => vec![],
     };
     let (from, to) = (root().join("template").join(name), copy.join(name));
     let wrong = |error: &dyn Display| format!("{}: {error}", from.display());
     let mut text = fs::read_to_string(&from).map_err(|error| wrong(&error))?;
-    if let Some((old, new)) = change {
+    for (old, new) in changes {
         if !text.contains(old) {
             return Err(wrong(&format!("no `{old}`")));
         }

@@ -325,6 +325,42 @@ macro_rules! against_a_list {
                 assert!(hits > 20_000, "{hits}");
             }
 
+            /// Rays that hardly move along an axis or two, among shapes that lie close together below cells of
+            /// the grid: crossing a cell takes them so long that floats round away where they are on the other axes.
+            #[test]
+            fn slow_axes() {
+                let mut random = Random(0x510_3a8e5);
+                let mut hits = 0;
+                for _ in 0..20 {
+                    let scene = Scene::new(&spheres(&mut random, 1, 300), Limits::DEFAULT);
+                    assert!(scene.built.levels > 1);
+                    let tree = scene.tree();
+                    for _ in 0..4000 {
+                        let s = &scene.shapes[random.below(300) as usize];
+                        let near = random.point(0.3);
+                        let mut d = random.direction();
+                        for axis in 0..3 {
+                            if random.below(2) == 0 {
+                                d[axis] = d[axis].signum() * 10f64.powf(random.within(-9.0, -3.0));
+                            }
+                        }
+                        let l = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+                        if l < 0.1 {
+                            continue;
+                        }
+                        let d = d.map(|x| make::unit(x / l).unwrap());
+                        let way = d.map(Into::<f64>::into);
+                        let t = random.within(0.0, 60.0);
+                        let center =
+                            s.center().map(|x| f64::from(make::to_grid(x, STEP)) / 65536.0);
+                        let o = [0, 1, 2].map(|i| center[i] + near[i] - t * way[i]);
+                        let o = o.map(|x| make::length(x).unwrap());
+                        hits += usize::from(scene.same(&tree, &mut WalkStack::new(), o, d));
+                    }
+                }
+                assert!(hits > 20_000, "{hits}");
+            }
+
             /// Scenes of all proportions, flat ones and needles among them: grids of one to eight cells
             /// along each axis.
             #[test]
