@@ -55,7 +55,7 @@ pub use material::{Material, MaterialSpec, PatternSpec, Shadow};
 pub use parts::Parts;
 pub use rules::Rules;
 pub use scene_ref::SceneRef;
-pub(crate) use scene_ref::ShapesOf;
+pub(crate) use scene_ref::{ShapesOf, is_known};
 pub use selection::Selection;
 pub use shapes::Shapes;
 pub(crate) use shapes::with_shape;

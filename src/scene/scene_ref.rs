@@ -16,6 +16,12 @@ pub trait SceneRef: Copy + Deref {}
 
 impl<S: Copy + Deref> SceneRef for S {}
 
+/// Whether it is a type that stands for one scene: it has no size. What is out of line is compiled for each; for a
+/// reference it is shared with the groups'.
+pub(crate) const fn is_known<S>() -> bool {
+    size_of::<S>() == 0
+}
+
 /// What leads to a scene's shapes, as a reference to those of a group does.
 #[derive(Clone, Copy)]
 pub(crate) struct ShapesOf<S>(pub(crate) S);

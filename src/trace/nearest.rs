@@ -5,7 +5,7 @@ use super::sight::{Sight, are_few, each_ahead};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
-use crate::scene::{Scene, SceneRef, Shapes, ShapesOf};
+use crate::scene::{Scene, SceneRef, Shapes, ShapesOf, is_known};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::Tally;
 use core::ops::{Deref, Range};
@@ -178,7 +178,6 @@ where
     let tree = has(USES, uses::TREE) && shapes.tree.is_some();
     if !tree {
         let Leaving { shape: left, inwards, .. } = ray.leaving;
-        let count = shapes.spheres.len() as u32;
         // The sphere that the ray leaves apart from the rest, which then needn't know.
         if inwards && let Some(sphere) = shapes.spheres.get(left as usize) {
             best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
@@ -199,18 +198,15 @@ where
                 id += 1;
             }
         }
-        if has_others(USES) && count != scene.bounded {
-            best = search::<A, T, _, USES>(
-                ShapesOf(scene),
-                count..scene.bounded,
-                *ray,
-                best,
-                walk,
-                tally,
-            );
-        }
-    } else {
-        best = search::<A, T, _, USES>(ShapesOf(scene), 0..0, *ray, best, walk, tally);
+    }
+    let count = shapes.spheres.len() as u32;
+    if tree || has_others(USES) && count != scene.bounded {
+        let rest = count..scene.bounded;
+        best = if is_known::<S>() {
+            search::<A, T, _, USES>(ShapesOf(scene), rest, *ray, best, walk, tally)
+        } else {
+            search::<A, T, _, USES>(shapes, rest, *ray, best, walk, tally)
+        };
     }
     if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
         best = in_instances(scene, *ray, best, walk, tally);

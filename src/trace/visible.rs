@@ -13,7 +13,7 @@ use super::work::{NO_SHAPE, Scratch};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
-use crate::scene::{Scene, SceneRef, Shadow, Shapes, ShapesOf};
+use crate::scene::{Scene, SceneRef, Shadow, Shapes, ShapesOf, is_known};
 use crate::shape::{Leaving, Meeting, Ray, Sphere};
 use crate::tally::{RayKind, Tally};
 use core::ops::{Deref, Range};
@@ -196,8 +196,11 @@ where
     }
     if tree || has_others(USES) && shapes.spheres.len() as u32 != scene.bounded {
         let rest = shapes.spheres.len() as u32..scene.bounded;
-        let found =
-            search::<A, T, _, USES>(ShapesOf(scene), rest, *ray, limit, (walk, last), tally);
+        let found = if is_known::<S>() {
+            search::<A, T, _, USES>(ShapesOf(scene), rest, *ray, limit, (walk, last), tally)
+        } else {
+            search::<A, T, _, USES>(shapes, rest, *ray, limit, (walk, last), tally)
+        };
         if found.is_some() {
             return found;
         }
