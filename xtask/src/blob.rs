@@ -1,12 +1,14 @@
 //! A scene that lies by itself in the emulated Pico's flash, as a blob: what its display shows is what the host draws
 //! of the same bytes, damaged ones included.
 
-use std::convert::Infallible;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use embedded_graphics::framebuffer::{Framebuffer, buffer_size};
 use embedded_graphics::pixelcolor::Rgb565;
+use embedded_graphics::pixelcolor::raw::{BigEndian, RawU16};
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use whitted::blob::Blob;
@@ -33,47 +35,18 @@ const SIDE: u32 = 48;
 const FEWEST_COLORS: usize = 50;
 
 /// The display's memory: big-endian pixels.
-struct Memory(Vec<u8>);
+type Memory = Framebuffer<
+    Rgb565,
+    RawU16,
+    BigEndian,
+    { DISPLAY as usize },
+    { DISPLAY as usize },
+    { buffer_size::<Rgb565>(DISPLAY as usize, DISPLAY as usize) },
+>;
 
-impl Memory {
-    fn new() -> Self {
-        Self(vec![0; (DISPLAY * DISPLAY) as usize * BYTES])
-    }
-
-    /// How many colours are in it.
-    fn colors(&self) -> usize {
-        let (pixels, _) = self.0.as_chunks::<BYTES>();
-        let mut colors = pixels.to_vec();
-        colors.sort_unstable();
-        colors.dedup();
-        colors.len()
-    }
-}
-
-impl OriginDimensions for Memory {
-    fn size(&self) -> Size {
-        Size::new_equal(DISPLAY)
-    }
-}
-
-impl DrawTarget for Memory {
-    type Color = Rgb565;
-    type Error = Infallible;
-
-    fn draw_iter<I>(&mut self, pixels: I) -> Result<(), Infallible>
-    where
-        I: IntoIterator<Item = Pixel<Rgb565>>,
-    {
-        for Pixel(Point { x, y }, color) in pixels {
-            if let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y))
-                && x < DISPLAY as usize
-                && let Some(pixel) = self.0.as_chunks_mut().0.get_mut(y * DISPLAY as usize + x)
-            {
-                *pixel = color.into_storage().to_be_bytes();
-            }
-        }
-        Ok(())
-    }
+/// How many colours are in it.
+fn colors(memory: &Memory) -> usize {
+    memory.data().as_chunks::<BYTES>().0.iter().collect::<BTreeSet<_>>().len()
 }
 
 /// The firmware with a whole scene, a damaged one, and none.
@@ -148,15 +121,15 @@ fn run(image: &Path, bytes: &[u8]) -> Result<(), String> {
     if errors != wanted {
         return Err(format!("the log has {errors:?}, on the host {wanted:?}"));
     }
-    if error.is_none() && here.colors() < FEWEST_COLORS {
-        return Err(format!("only {} colours", here.colors()));
+    if error.is_none() && colors(&here) < FEWEST_COLORS {
+        return Err(format!("only {} colours", colors(&here)));
     }
     let there = fs::read(dump(image)).map_err(|error| error.to_string())?;
-    let wrong = there.iter().zip(&here.0).filter(|(there, here)| there != here).count();
-    if there.len() == here.0.len() && wrong == 0 {
+    let wrong = there.iter().zip(here.data()).filter(|(there, here)| there != here).count();
+    if there.len() == here.data().len() && wrong == 0 {
         Ok(())
     } else {
-        Err(format!("{wrong} bytes of {} differ", here.0.len()))
+        Err(format!("{wrong} bytes of {} differ", here.data().len()))
     }
 }
 
