@@ -158,6 +158,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     const HORIZON: Self::Length;
     /// The cone of all directions.
     const EVERY_DIRECTION: Self::DirectionCone;
+    /// The cone of none.
+    const NO_DIRECTION: Self::DirectionCone;
     /// Zero length.
     const NO_LENGTH: Self::Length;
     /// Zero component.
@@ -330,6 +332,15 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
         r: &Self::Radius,
         blurred: bool,
     ) -> Option<Self::DirectionCone>;
+    /// The directions in which rays that start on the first sphere, to either side, can meet the second; those
+    /// whose hit on the first [is near](Self::is_near). Spheres are centre and radius. `None` for all
+    /// directions: the spheres touch, or nearly so.
+    fn pair_cone(
+        from: &([Self::Length; 3], &Self::Radius),
+        to: &([Self::Length; 3], &Self::Radius),
+    ) -> Option<Self::DirectionCone>;
+    /// Whether a ray that hits a sphere at this distance starts anew near enough to its surface.
+    fn is_near(t: Self::Length) -> bool;
     /// Whether a direction lies in the cone: cheap, and never wrong when it says no.
     fn in_cone(cone: &Self::DirectionCone, d: &[Self::Unit; 3]) -> bool;
 

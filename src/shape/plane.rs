@@ -223,6 +223,12 @@ impl<A: Arithmetic> Plane<A> {
 }
 
 impl<A: Arithmetic> Plane<A> {
+    /// The mirror image of a point.
+    pub(crate) fn image(&self, p: &[A::Length; 3]) -> [A::Length; 3] {
+        let height = A::project(p, &self.normal) - self.offset;
+        A::along(p, -(height + height), &self.normal)
+    }
+
     /// The mirror image of a ray that meets it at `p`, `t` away, and where rays start that go back:
     /// what [`Arithmetic::reflect`] and [`Arithmetic::leave`] give, of which nothing but a sign is left
     /// where the plane lies across an axis.

@@ -142,7 +142,7 @@ where
 }
 
 /// The nearest hit in front of `limit`; the lowest number among equals. `sight` is what can be seen
-/// from where the ray starts, if that is known.
+/// from where the ray comes from, if that is known.
 #[inline(always)]
 pub(crate) fn nearest<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
     scene: S,
@@ -182,9 +182,7 @@ where
         if inwards && let Some(sphere) = shapes.spheres.get(left as usize) {
             best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
         }
-        if let Some(sight) = sight
-            && are_few(&scene)
-        {
+        if sight.is_some() && are_few(&scene) {
             each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| if id != left {
                 best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
             });

@@ -11,7 +11,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::{Place, surface_at};
 use super::nearest::{Hit, nearest};
-use super::sight::may_be_few;
+use super::sight::{Vantage, may_be_few};
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
@@ -27,6 +27,8 @@ pub(super) struct Path<A: Arithmetic> {
     /// The product of the coefficients down the tree.
     weight: Rgb<A::Weight>,
     depth: u8,
+    /// Where the ray comes from.
+    vantage: Vantage,
 }
 
 impl<A: Arithmetic> Path<A> {
@@ -38,6 +40,7 @@ impl<A: Arithmetic> Path<A> {
         },
         weight: [A::NO_WEIGHT; 3],
         depth: 0,
+        vantage: Vantage::ANYWHERE,
     };
 
     /// The same, of a scene that uses no more than its type says: what is always the same needn't
@@ -205,7 +208,8 @@ where
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
         let mut kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
-        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1 };
+        let vantage = if may_be_few::<USES>() && seen { Vantage::EYE } else { Vantage::ANYWHERE };
+        let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, vantage };
         let mut first = A::FAR;
         let mut sum = [A::BLACK; 3];
         let mut waiting = 0usize;
@@ -213,8 +217,9 @@ where
         let mut key = self.key;
         tally.ray(kind, path.depth, &path.ray, &path.weight);
         // A search of its own for the first ray: a good part of the tracing is done by then.
-        let eye = if may_be_few::<USES>() && seen { Some(&work.sights.eye) } else { None };
-        let mut found = nearest(self.scene, &path.ray, A::FAR, eye, &mut work.scratch.walk, tally);
+        let sight = work.sights.from(path.vantage);
+        let mut found =
+            nearest(self.scene, &path.ray, A::FAR, sight, &mut work.scratch.walk, tally);
         if found.is_none() {
             if let Some(distance) = self.ends_at_light(&path.ray, &found) {
                 return (sum, distance);
@@ -265,7 +270,8 @@ where
                 }
             };
             tally.ray(kind, path.depth, &path.ray, &path.weight);
-            found = nearest(self.scene, &path.ray, A::FAR, None, &mut work.scratch.walk, tally);
+            let sight = work.sights.from(path.vantage);
+            found = nearest(self.scene, &path.ray, A::FAR, sight, &mut work.scratch.walk, tally);
         }
     }
 
@@ -341,9 +347,8 @@ where
             made = painted(&scene, *material, texture, hit.shape, place.local);
             material = &made;
         }
-        if has(USES, uses::BUMPS)
-            && let Some(texture) = material.bump()
-        {
+        let is_bumped = has(USES, uses::BUMPS) && material.bump().is_some();
+        if is_bumped && let Some(texture) = material.bump() {
             let direction = path.ray.direction;
             surface = bumped(&scene, texture, surface, hit.shape, place.local, direction);
             mirror = A::reflect(&path.ray.direction, &surface.normal, -surface.cosine);
@@ -419,6 +424,16 @@ where
         if path.depth >= self.depth {
             return None;
         }
+        // A sphere's surface is where rays come from that leave it; what the first plane mirrors of what the eye
+        // sees comes from the eye's image.
+        let sphere =
+            if (hit.shape as usize) < scene.shapes.spheres.len() && A::is_near(hit.distance) {
+                Vantage::sphere(hit.shape)
+            } else {
+                Vantage::ANYWHERE
+            };
+        let image = hit.shape == scene.first_plane && path.depth == 1 && !is_bumped;
+        let mirrored = if image { Vantage::IMAGE } else { sphere };
         let rules = &scene.parts.rules;
         path.depth += 1;
         let mut reflected = grey::<A, USES>(&material.reflection);
@@ -450,6 +465,7 @@ where
                             leaving: Leaving::through(hit.shape, &surface),
                         };
                         path.weight = weight;
+                        path.vantage = if seen { sphere } else { Vantage::ANYWHERE };
                         next = Some(RayKind::Transmission);
                     }
                 }
@@ -481,6 +497,7 @@ where
                 }
                 path.ray = outside;
                 path.weight = weight;
+                path.vantage = if seen { mirrored } else { Vantage::ANYWHERE };
                 next = Some(RayKind::Reflection);
             }
         }

@@ -1,10 +1,11 @@
-//! What can be seen from a point: for each of the first few spheres the cone of directions in which
-//! a ray through the point can meet it.
+//! What can be seen from where rays start or end: for each of the first few spheres the cone of
+//! directions in which such a ray can meet it.
 //!
-//! The camera's rays all start at the eye, and shadow rays all end at a light: a product with the
-//! direction tells which spheres such a ray needn't be tested with (Haines and Greenberg's light
-//! buffer, 1986, without its raster). A cone is wide enough for every rounding, so the picture
-//! is the same to the bit.
+//! The camera's rays all start at the eye, shadow rays all end at a light (Haines and Greenberg's light
+//! buffer, 1986, without its raster). Rays that leave a sphere start on it, and those that the first plane
+//! mirrors come from the eye's image behind it. A product with the direction tells which spheres such a
+//! ray needn't be tested with. A cone is wide enough for every rounding, so the picture is the same to
+//! the bit.
 
 use crate::math::{Arithmetic, sub};
 use crate::scene::uses::{self, has};
@@ -14,6 +15,28 @@ use crate::scene::{Scene, Source};
 pub(crate) const FEW: usize = 8;
 /// So many lights are.
 const LIGHTS: usize = 2;
+
+/// Where a ray comes from, as far as it is known what can be seen from there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Vantage(u8);
+
+/// So many vantage points that are no spheres have what is seen from them remembered.
+const POINTS: usize = 2;
+
+impl Vantage {
+    /// Nothing is known.
+    pub(super) const ANYWHERE: Self = Self(u8::MAX);
+    /// The eye.
+    pub(super) const EYE: Self = Self(0);
+    /// The eye's image behind the first plane.
+    pub(super) const IMAGE: Self = Self(1);
+
+    /// The surface of the sphere of this number, which rays leave to either side.
+    #[inline(always)]
+    pub(super) fn sphere(number: u32) -> Self {
+        if number < FEW as u32 { Self(number as u8 + POINTS as u8) } else { Self::ANYWHERE }
+    }
+}
 
 /// Whether all cones come before the first sphere: what is kept for a sphere's test then needn't make way for each
 /// cone, where registers are few. Elsewhere a sphere's cone comes right before its test.
@@ -31,24 +54,41 @@ impl<A: Arithmetic> Sight<A> {
     /// Anything, in any direction.
     const ANY: Self = Self { cones: [A::EVERY_DIRECTION; FEW], outside: 0 };
 
-    /// Looks from a point: for rays that start there, or, `towards` it, for rays that end there.
+    /// Looks from a point: for rays that start there, or, `towards` it, for rays that end there. `blurred`:
+    /// they may miss it by as much as [`direction_cone`](Arithmetic::direction_cone) allows.
     fn look<const USES: u64>(
         &mut self,
         scene: &Scene<'_, A, USES>,
         point: &[A::Length; 3],
-        towards: bool,
+        (towards, blurred): (bool, bool),
     ) {
         *self = Self::ANY;
         let mut bit = 1;
         for (cone, sphere) in self.cones.iter_mut().zip(scene.shapes.spheres) {
             let center = sphere.center();
             let way = if towards { sub(point, &center) } else { sub(&center, point) };
-            if let Some(found) = A::direction_cone(&way, sphere.bound(), towards) {
+            if let Some(found) = A::direction_cone(&way, sphere.bound(), blurred) {
                 *cone = found;
                 // One that shows its inside alone hides nothing from within.
                 self.outside |= if sphere.shows_inside_only::<USES>() { 0 } else { bit };
             }
             bit <<= 1;
+        }
+    }
+
+    /// Looks from anywhere on the sphere of this number at the others: whether a ray meets that one itself,
+    /// nobody asks here.
+    fn look_from<const USES: u64>(&mut self, scene: &Scene<'_, A, USES>, number: usize) {
+        *self = Self::ANY;
+        let spheres = scene.shapes.spheres;
+        let Some(from) = spheres.get(number) else { return };
+        let from = (from.center(), from.bound());
+        for (i, (cone, to)) in self.cones.iter_mut().zip(spheres).enumerate() {
+            if i == number {
+                *cone = A::NO_DIRECTION;
+            } else if let Some(found) = A::pair_cone(&from, &(to.center(), to.bound())) {
+                *cone = found;
+            }
         }
     }
 
@@ -65,6 +105,13 @@ impl<A: Arithmetic> Sight<A> {
         found
     }
 
+    /// Whether a ray in a direction may meet the sphere of this number.
+    #[inline(always)]
+    pub(super) fn is_ahead(&self, number: u32, direction: &[A::Unit; 3]) -> bool {
+        // A mask that is below the length: no check is left.
+        A::in_cone(&self.cones[number as usize & (FEW - 1)], direction)
+    }
+
     /// Whether the shape is a sphere that hides the point from all who are within.
     #[inline(always)]
     pub(super) fn hides_from(&self, shape: u32) -> bool {
@@ -72,30 +119,31 @@ impl<A: Arithmetic> Sight<A> {
     }
 }
 
-/// Does something with all spheres, and their numbers, that a ray in a direction may meet, of those that a point
-/// sees. A macro, since an iterator takes 4 to 8 % more instructions.
+/// Does something with all spheres, and their numbers, that a ray in a direction may meet, of those that are seen
+/// from where it starts or ends: all, where that isn't known. A macro, since an iterator takes 4 to 8 % more
+/// instructions.
 macro_rules! each_ahead {
     ($sight:expr, $spheres:expr, $direction:expr, $tally:expr, |$sphere:ident, $id:ident| $act:expr) => {
-        let mut spheres = $spheres.iter().zip(&$sight.cones);
-        let mut ahead = if $crate::trace::sight::CONES_FIRST {
-            $sight.ahead($direction, $spheres.len())
-        } else {
-            1
+        let first = $crate::trace::sight::CONES_FIRST;
+        let mut ahead = match $sight {
+            Some(sight) if first => sight.ahead($direction, $spheres.len()),
+            _ => u32::MAX,
         };
+        let mut spheres = $spheres.iter();
         let mut $id = 0;
         while ahead != 0
-            && let Some(($sphere, cone)) = spheres.next()
+            && let Some($sphere) = spheres.next()
         {
             $tally.test();
-            let found = if $crate::trace::sight::CONES_FIRST {
+            let found = if first {
                 ahead & 1 != 0
             } else {
-                A::in_cone(cone, $direction)
+                $sight.is_none_or(|sight| sight.is_ahead($id, $direction))
             };
             if found {
                 $act;
             }
-            if $crate::trace::sight::CONES_FIRST {
+            if first {
                 ahead >>= 1;
             }
             $id += 1;
@@ -107,18 +155,20 @@ macro_rules! each_ahead {
 }
 pub(super) use each_ahead;
 
-/// What can be seen from the eye and from the first lights.
+/// What can be seen from the eye, from its image behind the first plane, from the first spheres, and from the
+/// first lights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sights<A: Arithmetic> {
-    pub(super) eye: Sight<A>,
+    from: [Sight<A>; POINTS + FEW],
     lights: [Sight<A>; LIGHTS],
 }
 
 impl<A: Arithmetic> Sights<A> {
     /// Of no scene.
-    pub(super) const NONE: Self = Self { eye: Sight::ANY, lights: [Sight::ANY; LIGHTS] };
+    pub(super) const NONE: Self =
+        Self { from: [Sight::ANY; POINTS + FEW], lights: [Sight::ANY; LIGHTS] };
 
-    /// Looks from an eye and from the scene's lights. Nothing is left of the scene before.
+    /// Looks from an eye and from what stands in the scene. Nothing is left of the scene before.
     pub(super) fn look<const USES: u64>(
         &mut self,
         scene: &Scene<'_, A, USES>,
@@ -128,20 +178,29 @@ impl<A: Arithmetic> Sights<A> {
             // Nobody will ask.
             return;
         }
+        *self = Self::NONE;
         if !are_few(scene) {
-            *self = Self::NONE;
             return;
         }
-        self.eye.look(scene, eye, false);
-        let mut lights = scene.parts.lights.iter();
-        for sight in &mut self.lights {
-            match lights.next().map(|light| &light.source) {
-                Some(Source::Point { position } | Source::Spot { position, .. }) => {
-                    sight.look(scene, position, true);
-                }
-                _ => *sight = Sight::ANY,
+        let [own, image, spheres @ ..] = &mut self.from;
+        own.look(scene, eye, (false, false));
+        if let Some(plane) = scene.parts.planes.first() {
+            image.look(scene, &plane.image(eye), (false, true));
+        }
+        for (number, sight) in spheres.iter_mut().enumerate() {
+            sight.look_from(scene, number);
+        }
+        for (sight, light) in self.lights.iter_mut().zip(scene.parts.lights) {
+            if let Source::Point { position } | Source::Spot { position, .. } = &light.source {
+                sight.look(scene, position, (true, true));
             }
         }
+    }
+
+    /// What can be seen from where a ray comes from, if that is remembered.
+    #[inline(always)]
+    pub(super) fn from(&self, vantage: Vantage) -> Option<&Sight<A>> {
+        self.from.get(usize::from(vantage.0))
     }
 
     /// What can be seen from a light, if that is remembered.
@@ -166,81 +225,4 @@ pub(super) fn are_few<A: Arithmetic, const USES: u64>(scene: &Scene<'_, A, USES>
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::Fixed;
-    use crate::shape::testing::Test;
-    use crate::shape::{Leaving, Ray, Sphere};
-    use proptest::array::uniform3;
-    use proptest::prelude::*;
-    extern crate std;
-
-    fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        (length > 1e-3).then(|| v.map(|x| x / length))
-    }
-
-    /// Whether a ray that meets the sphere is in its cone: one that starts at the point, and one
-    /// that ends there, coming from `back` away.
-    fn is_found<A: Test>(sphere: &Sphere<A>, point: [f64; 3], d: [f64; 3], back: f64) {
-        let from = point.map(A::length);
-        let start = Ray::<A> { origin: from, direction: d.map(A::unit), leaving: Leaving::NOTHING };
-        let way = sub(&sphere.center(), &from);
-        let meets = sphere.meet_likely::<{ uses::ALL }>(&start, false, A::FAR).is_some();
-        if let Some(cone) = A::direction_cone(&way, sphere.bound(), false) {
-            assert!(!meets || A::in_cone(&cone, &start.direction), "from {point:?} along {d:?}");
-        }
-        let origin = [0, 1, 2].map(|i| A::length(point[i] + d[i] * back));
-        let (direction, distance, _) = A::normalize(&sub(&from, &origin));
-        let end = Ray::<A> { origin, direction, leaving: Leaving::NOTHING };
-        let blocked = sphere.blocks_likely::<{ uses::ALL }>(&end, false, distance);
-        if let Some(cone) = A::direction_cone(&sub(&from, &sphere.center()), sphere.bound(), true) {
-            assert!(!blocked || A::in_cone(&cone, &direction), "to {point:?} along {d:?}");
-        }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
-        #[test]
-        fn no_sphere_is_missed(
-            center in uniform3(-200.0f64..200.0),
-            log_r in -6.0f64..6.0,
-            log_way in -3.0f64..6.0,
-            towards in uniform3(-1.0f64..1.0),
-            aside in uniform3(-1.0f64..1.0),
-            part in 0.9f64..1.1,
-            log_back in -3.0f64..8.0,
-        ) {
-            // Points anywhere around it, and directions that just meet it or just don't.
-            let (r, way, back) = (log_r.exp2(), log_r.exp2() + log_way.exp2(), log_back.exp2());
-            let Some(t) = unit(towards) else { return Ok(()) };
-            let along = (0..3).map(|i| aside[i] * t[i]).sum::<f64>();
-            let Some(s) = unit([0, 1, 2].map(|i| aside[i] - along * t[i])) else { return Ok(()) };
-            let sine = (r / way * part).min(1.0);
-            let cosine = (1.0 - sine * sine).sqrt();
-            let d = [0, 1, 2].map(|i| t[i] * cosine + s[i] * sine);
-            let point = [0, 1, 2].map(|i| center[i] - t[i] * way);
-            is_found::<Fixed>(&Sphere::<Fixed>::new(center, r, 0), point, d, back);
-            is_found::<f32>(&Sphere::<f32>::new(center, r, 0), point, d, back);
-            is_found::<f64>(&Sphere::<f64>::new(center, r, 0), point, d, back);
-        }
-    }
-
-    #[test]
-    fn most_directions_are_out() {
-        let sphere = Sphere::<Fixed>::new([0.0, 0.0, 5.0], 1.0, 0);
-        let cone = |point: [f64; 3], towards| {
-            let point = point.map(Fixed::length);
-            let way = sub(&sphere.center(), &point);
-            Fixed::direction_cone(&way, sphere.bound(), towards)
-        };
-        assert!(cone([0.0, 0.0, 4.5], false).is_none());
-        let cone = cone([0.0; 3], false).expect("outside");
-        let meets = |angle: f64| {
-            let d = [0.0, angle.to_radians().sin(), angle.to_radians().cos()];
-            Fixed::in_cone(&cone, &d.map(Fixed::unit))
-        };
-        // asin(1/5) is 11.54 degrees, and a few steps for rounding are half a degree.
-        assert!(meets(0.0) && meets(11.5) && !meets(12.5) && !meets(90.0) && !meets(180.0));
-    }
-}
+mod tests;

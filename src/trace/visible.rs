@@ -175,9 +175,7 @@ where
         {
             return Some(left);
         }
-        if let Some(sight) = sight
-            && are_few(&scene)
-        {
+        if sight.is_some() && are_few(&scene) {
             each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| {
                 if id != left && sphere.blocks_likely::<USES>(ray, false, limit) {
                     return Some(id);

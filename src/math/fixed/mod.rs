@@ -85,6 +85,8 @@ impl Arithmetic for Fixed {
     const HORIZON: I16F16 = I16F16::from_bits(FAR - 1);
     const EVERY_DIRECTION: FixedDirectionCone =
         FixedDirectionCone { axis: [0; 3], least_q17: i32::MIN };
+    const NO_DIRECTION: FixedDirectionCone =
+        FixedDirectionCone { axis: [0; 3], least_q17: i32::MAX };
     const NO_LENGTH: I16F16 = I16F16::ZERO;
     const NO_UNIT: Unit = Unit::ZERO;
     const ONE_UNIT: Unit = Unit::ONE;
@@ -291,6 +293,19 @@ impl Arithmetic for Fixed {
         blurred: bool,
     ) -> Option<FixedDirectionCone> {
         round::direction_cone(&lengths(way), r.bits(), blurred)
+    }
+
+    fn pair_cone(
+        (from, r): &([I16F16; 3], &FixedRadius),
+        (to, s): &([I16F16; 3], &FixedRadius),
+    ) -> Option<FixedDirectionCone> {
+        round::pair_cone((&lengths(from), r.bits()), (&lengths(to), s.bits()))
+    }
+
+    #[inline(always)]
+    fn is_near(_: I16F16) -> bool {
+        // Nothing is too far: see `pair_cone`.
+        true
     }
 
     #[inline(always)]

@@ -188,3 +188,16 @@ pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> Option<Fi
     }
     Some(FixedDirectionCone { axis, least_q17: (least << 17) as i32 })
 }
+
+/// See `Arithmetic::pair_cone`: a ray from anywhere on the first sphere meets the second only where one from
+/// its centre meets a sphere as large as both.
+pub(super) fn pair_cone(
+    (from, r): (&[i32; 3], i32),
+    (to, s): (&[i32; 3], i32),
+) -> Option<FixedDirectionCone> {
+    let way = [0, 1, 2].map(|i| to[i].wrapping_sub(from[i]));
+    // Where a ray starts, 1024 units after the last start at most, is off the sphere by what `leave` adds,
+    // 2⁻¹⁶ of that way, and by what the direction was wrong, about as much: a sixteenth of a unit is more
+    // than either could be together.
+    direction_cone(&way, r.wrapping_add(s).wrapping_add(1 << 12), false)
+}

@@ -12,6 +12,9 @@ pub use types::{
     FloatScale, FloatSpot,
 };
 
+/// Within this distance rays that hit a sphere start anew near enough to its surface for `pair_cone`.
+const NEAR: u16 = 256;
+
 macro_rules! float {
     ($f:ident, $bits:literal, $constructors:ident, sqrt: $sqrt:path, pow: $pow:path, exp: $exp:path, eps: $eps:literal, slow: $slow:literal) => {
         impl Arithmetic for $f {
@@ -45,6 +48,8 @@ macro_rules! float {
             const HORIZON: $f = 1e9;
             const EVERY_DIRECTION: FloatDirectionCone<$f> =
                 FloatDirectionCone { axis: [0.0; 3], least: -1.0 };
+            const NO_DIRECTION: FloatDirectionCone<$f> =
+                FloatDirectionCone { axis: [0.0; 3], least: 1.0 };
             const NO_LENGTH: $f = 0.0;
             const NO_UNIT: $f = 0.0;
             const ONE_UNIT: $f = 1.0;
@@ -193,6 +198,25 @@ macro_rules! float {
                 } else {
                     None
                 }
+            }
+
+            fn pair_cone(
+                (from, r): &([$f; 3], &FloatRadius<$f>),
+                (to, s): &([$f; 3], &FloatRadius<$f>),
+            ) -> Option<FloatDirectionCone<$f>> {
+                // A ray from anywhere on the first sphere meets the second only where one from its
+                // centre meets a sphere as large as both. Where it starts is off the first by what the
+                // numbers that went into it are rounded, and by `clearance`, eight times that.
+                let sum = |v: &[$f; 3]| v[0].abs() + v[1].abs() + v[2].abs();
+                let size = sum(from) + sum(to) + r.r + s.r + NEAR as $f;
+                let way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+                let reach = r.r + s.r + size * (64.0 * $eps);
+                Self::direction_cone(&way, &FloatRadius { r: reach, ..**r }, false)
+            }
+
+            #[inline(always)]
+            fn is_near(t: $f) -> bool {
+                t <= NEAR as $f
             }
 
             #[inline(always)]
