@@ -23,7 +23,7 @@ where
         let rows = if fit < usize::from(left) { fit as u16 } else { left };
         let mut sparse = self.sparse.take();
         for (y, line) in (y..).zip(bytes.chunks_exact_mut(line.max(1)).take(usize::from(rows))) {
-            let row = self.view.row(y, 128);
+            let row = self.row(y);
             for (x, bytes) in (0..width).zip(line.chunks_exact_mut(P::BYTES)) {
                 let radiance =
                     self.shown::<{ call_site::BAND }>(&mut sparse, &row, x, y, (0, width));

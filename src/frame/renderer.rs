@@ -145,13 +145,21 @@ where
         Scan { renderer: self, sparse, columns, rows, x, row, begun: false }
     }
 
+    /// The rays through the centres of the row of pixels at y, many of which follow.
+    #[inline(always)]
+    pub(super) fn row(&self, y: u16) -> Row<A> {
+        let mut row = self.view.row(y, 128);
+        row.clear = self.tracer.is_clear(self.view, row, self.settings.width);
+        row
+    }
+
     /// Writes the pixels of row `y`, as many as the slice holds.
     #[inline(always)]
     pub fn line<P: Pixel>(&mut self, y: u16, output: &Output, pixels: &mut [P]) {
         if y >= self.settings.height {
             return;
         }
-        let row = self.view.row(y, 128);
+        let row = self.row(y);
         let width = self.settings.width;
         // In a place of its own: the renderer itself isn't lent to what is out of line, so that the
         // compiler knows which scene the tracer is given.
@@ -222,9 +230,13 @@ where
             let mut nothing = T::NOTHING;
             let mut watch = Watch::new(nothing.as_mut().unwrap_or(&mut self.tally));
             let radiance = if uses::has_samplings(USES & !uses::SPARSE) {
-                self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut watch)
+                self.tracer.seen::<{ call_site::ANY }, _, _>(
+                    (ray, other.clear),
+                    self.work,
+                    &mut watch,
+                )
             } else {
-                self.tracer.seen::<SITE, _, _>(ray, self.work, &mut watch)
+                self.tracer.seen::<SITE, _, _>((ray, other.clear), self.work, &mut watch)
             };
             if last {
                 return radiance;
@@ -264,15 +276,19 @@ where
         if uses::has_signatures(USES) {
             // As in `radiance`.
             let mut watch = Watch::new(&mut self.tally);
-            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut watch)
+            self.tracer.seen::<{ call_site::ANY }, _, _>((ray, row.clear), self.work, &mut watch)
         } else if uses::has_samplings(USES) {
-            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut self.tally)
+            self.tracer.seen::<{ call_site::ANY }, _, _>(
+                (ray, row.clear),
+                self.work,
+                &mut self.tally,
+            )
         } else {
             // The renderer isn't lent to what is out of line where nothing is counted: so the compiler knows
             // what stands in it, the scene above all.
             let mut nothing = T::NOTHING;
             let tally = nothing.as_mut().unwrap_or(&mut self.tally);
-            self.tracer.seen::<SITE, _, _>(ray, self.work, tally)
+            self.tracer.seen::<SITE, _, _>((ray, row.clear), self.work, tally)
         }
     }
 
@@ -298,7 +314,8 @@ where
         let ray = self.view.ray(&row, x, right);
         self.prepare(&row, x, right);
         let mut watch = Watch::new(&mut self.tally);
-        let radiance = self.tracer.seen::<{ call_site::ANY }, _, _>(ray, self.work, &mut watch);
+        let radiance =
+            self.tracer.seen::<{ call_site::ANY }, _, _>((ray, row.clear), self.work, &mut watch);
         watch.sample(radiance)
     }
 
@@ -392,7 +409,7 @@ where
             return false;
         }
         self.x = self.columns.start;
-        self.row = self.renderer.view.row(self.rows.start, 128);
+        self.row = self.renderer.row(self.rows.start);
         true
     }
 }

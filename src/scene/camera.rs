@@ -119,6 +119,8 @@ pub struct View<A: Arithmetic> {
 pub struct Row<A: Arithmetic> {
     start: [A::Aim; 3],
     place: u32,
+    /// It is known that no sphere shows in it.
+    pub(crate) clear: bool,
 }
 
 impl<A: Arithmetic> Row<A> {
@@ -168,12 +170,17 @@ impl<A: Arithmetic> View<A> {
         Self { eye: camera.eye, corner: [f(0), f(1), f(2)], across, down }
     }
 
+    /// Where its rays start.
+    pub(crate) fn eye(&self) -> &[A::Length; 3] {
+        &self.eye
+    }
+
     /// The row of rays at `y` and `fraction`/256 pixels below the upper edge.
     #[inline(always)]
     pub fn row(&self, y: u16, fraction: u8) -> Row<A> {
         let f = |i: usize| A::aim(self.corner[i], self.down[i], i32::from(y), i32::from(fraction));
         let place = u32::from(y) << 8 | u32::from(fraction);
-        Row { start: [f(0), f(1), f(2)], place }
+        Row { start: [f(0), f(1), f(2)], place, clear: false }
     }
 
     /// The ray at `x` and `fraction`/256 pixels right of the left edge.

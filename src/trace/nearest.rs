@@ -1,7 +1,7 @@
 //! The nearest hit along a ray.
 
 use super::meet::{meet, meet_any};
-use super::sight::{Sight, are_few, each_ahead};
+use super::sight::{Ahead, are_few, each_ahead};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
@@ -141,14 +141,14 @@ where
     best
 }
 
-/// The nearest hit in front of `limit`; the lowest number among equals. `sight` is what can be seen
-/// from where the ray comes from, if that is known.
+/// The nearest hit in front of `limit`; the lowest number among equals. Also, what is
+/// known of what lies ahead.
 #[inline(always)]
 pub(crate) fn nearest<'s, A: Arithmetic, T: Tally, S, const USES: u64>(
     scene: S,
     ray: &Ray<A>,
     limit: A::Length,
-    sight: Option<&Sight<A>>,
+    Ahead { sight, clear }: Ahead<'_, A>,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Option<Hit<A>>
@@ -182,7 +182,9 @@ where
         if inwards && let Some(sphere) = shapes.spheres.get(left as usize) {
             best.take(sphere.meet_likely::<USES>(ray, true, best.distance), left);
         }
-        if sight.is_some() && are_few(&scene) {
+        if clear {
+            shapes.spheres.iter().for_each(|_| tally.test());
+        } else if sight.is_some() && are_few(&scene) {
             each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| if id != left {
                 best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
             });

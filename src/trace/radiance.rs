@@ -11,12 +11,12 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::{Place, surface_at};
 use super::nearest::{Hit, nearest};
-use super::sight::{Vantage, may_be_few};
+use super::sight::{Ahead, Vantage, are_few, may_be_few, pass_all};
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::uses::{self, grey, has, has_indirect, splits_shading};
-use crate::scene::{Scene, SceneRef};
+use crate::scene::{Row, Scene, SceneRef, View};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -130,7 +130,13 @@ where
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, None, &mut work.scratch.walk, tally)
+        nearest(self.scene, ray, A::FAR, Ahead::ANYTHING, &mut work.scratch.walk, tally)
+    }
+
+    /// Whether no ray of a row meets a sphere, as far as that is worth knowing: where they are few.
+    #[inline(always)]
+    pub(crate) fn is_clear(&self, view: View<A>, row: Row<A>, width: u16) -> bool {
+        are_few(&self.scene) && pass_all(self.scene.shapes.spheres, view, row, width)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -142,22 +148,22 @@ where
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
-        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, false, work, tally).0
+        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, (false, false), work, tally).0
     }
 
-    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene; at a
-    /// [call site](call_site) of the caller's.
+    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene, and whether it is
+    /// known that it meets no sphere; at a [call site](call_site) of the caller's.
     #[inline(always)]
     pub(crate) fn seen<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
         &self,
-        ray: Ray<A>,
+        (ray, clear): (Ray<A>, bool),
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> Rgb<A::Radiance> {
         if call_site::is_in_line::<SITE>() {
-            self.follow(ray, true, work, tally).0
+            self.follow(ray, (true, clear), work, tally).0
         } else {
-            self.follow_by_call::<SITE, _, _>(ray, true, work, tally).0
+            self.follow_by_call::<SITE, _, _>(ray, (true, clear), work, tally).0
         }
     }
 
@@ -169,7 +175,7 @@ where
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, false, work, tally)
+        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, (false, false), work, tally)
     }
 
     #[inline(always)]
@@ -198,12 +204,12 @@ where
     }
 
     /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
-    /// a ray from the eye that `work` has looked from.
+    /// a ray from the eye that `work` has looked from; `clear`: it meets no sphere.
     #[inline(always)]
     fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
-        seen: bool,
+        (seen, clear): (bool, bool),
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
@@ -217,7 +223,7 @@ where
         let mut key = self.key;
         tally.ray(kind, path.depth, &path.ray, &path.weight);
         // A search of its own for the first ray: a good part of the tracing is done by then.
-        let sight = work.sights.from(path.vantage);
+        let sight = Ahead { sight: work.sights.from(path.vantage), clear };
         let mut found =
             nearest(self.scene, &path.ray, A::FAR, sight, &mut work.scratch.walk, tally);
         if found.is_none() {
@@ -270,7 +276,7 @@ where
                 }
             };
             tally.ray(kind, path.depth, &path.ray, &path.weight);
-            let sight = work.sights.from(path.vantage);
+            let sight = Ahead { sight: work.sights.from(path.vantage), clear: false };
             found = nearest(self.scene, &path.ray, A::FAR, sight, &mut work.scratch.walk, tally);
         }
     }
@@ -280,7 +286,7 @@ where
     fn follow_by_call<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
-        seen: bool,
+        seen: (bool, bool),
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {

@@ -9,7 +9,8 @@
 
 use crate::math::{Arithmetic, sub};
 use crate::scene::uses::{self, has};
-use crate::scene::{Scene, Source};
+use crate::scene::{Row, Scene, Source, View};
+use crate::shape::Sphere;
 
 /// So many spheres have their cones remembered. A list of more is better off with an octree.
 pub(crate) const FEW: usize = 8;
@@ -208,6 +209,55 @@ impl<A: Arithmetic> Sights<A> {
     pub(super) fn light(&self, number: u16) -> Option<&Sight<A>> {
         self.lights.get(usize::from(number))
     }
+}
+
+/// What is known of the spheres that a ray may meet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ahead<'w, A: Arithmetic> {
+    /// What can be seen from where it comes from.
+    pub(super) sight: Option<&'w Sight<A>>,
+    /// It meets none.
+    pub(super) clear: bool,
+}
+
+impl<A: Arithmetic> Ahead<'_, A> {
+    /// Nothing.
+    pub(super) const ANYTHING: Self = Self { sight: None, clear: false };
+}
+
+/// The direction of a row's ray, out of line.
+#[inline(never)]
+fn towards<A: Arithmetic>(view: View<A>, row: Row<A>, x: u16) -> [A::Unit; 3] {
+    view.ray(&row, x, 0).direction
+}
+
+/// Whether all spheres lie off the plane that the rays of a row lie in. By value: what a reference is taken of can't
+/// stay in registers.
+#[inline(never)]
+pub(super) fn pass_all<A: Arithmetic>(
+    spheres: &[Sphere<A>],
+    view: View<A>,
+    row: Row<A>,
+    width: u16,
+) -> bool {
+    let (d, e) = (towards(view, row, 0), towards(view, row, width));
+    let across = |i: usize, j: usize| A::product(d[i], e[j]) - A::product(d[j], e[i]);
+    let normal = [across(1, 2), across(2, 0), across(0, 1)];
+    let (_, length) = A::renormalize(&normal);
+    spheres.iter().all(|sphere| {
+        let way = sub(&sphere.center(), view.eye());
+        let height = A::project(&way, &normal);
+        // The normal and its length are wrong by less than six steps of a direction, and the rays by less
+        // than one: eight times what rounding takes from a way as long as this.
+        let sum = way
+            .iter()
+            .fold(A::NO_LENGTH, |sum, &x| if x < A::NO_LENGTH { sum - x } else { sum + x });
+        let slack = A::clearance(&way, sum);
+        let slack = slack + slack;
+        let slack = slack + slack;
+        let reach = A::scale(sphere.radius(), length) + slack + slack;
+        height > reach || -height > reach
+    })
 }
 
 /// Whether the spheres of a scene of this type may be few: code for that is worth having.

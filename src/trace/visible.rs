@@ -8,7 +8,7 @@
 use super::detail::absorbed;
 use super::meet::{meet_any, surface_at};
 use super::nearest::nearest;
-use super::sight::{Sight, are_few, each_ahead};
+use super::sight::{Ahead, Sight, are_few, each_ahead};
 use super::work::{NO_SHAPE, Scratch};
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::octree::{Visitor, WalkStack};
@@ -273,7 +273,7 @@ where
     if found == Some(body) {
         // The ray ends on the body, where rounding can see it a little nearer; whatever else is in
         // the way is nearer still.
-        found = nearest(scene, ray, limit, None, walk, tally).map(|hit| hit.shape);
+        found = nearest(scene, ray, limit, Ahead::ANYTHING, walk, tally).map(|hit| hit.shape);
         found = found.filter(|&shape| shape != body);
     }
     match found {
@@ -301,7 +301,9 @@ where
     let mut share = [A::FULL; 3];
     let mut left = limit;
     for _ in 0..MAX_SHEETS {
-        let Some(hit) = nearest(scene, &ray, left, None, walk, tally) else { return Some(share) };
+        let Some(hit) = nearest(scene, &ray, left, Ahead::ANYTHING, walk, tally) else {
+            return Some(share);
+        };
         if hit.shape == body {
             return Some(share);
         }

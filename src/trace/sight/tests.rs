@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::math::{Fixed, neg};
+use crate::scene::Camera;
 use crate::shape::testing::Test;
 use crate::shape::{Leaving, Plane, Ray, Sphere};
 use crate::trace::meet::Place;
@@ -92,6 +93,21 @@ fn is_found_mirrored<A: Test>(sphere: &Sphere<A>, plane: &Plane<A>, eye: [f64; 3
     assert!(!meets || A::in_cone(&cone, &ray.direction), "from {eye:?} along {d:?}");
 }
 
+/// Whether no ray of a row that passes the sphere meets it.
+fn is_clear<A: Test>(camera: &Camera<A>, sphere: Sphere<A>, y: u16) {
+    let (view, width) = (View::new(camera, 40, 30), 40);
+    let row = view.row(y, 128);
+    if pass_all(&[sphere], view, row, width) {
+        for x in 0..=width {
+            for fraction in [0, 85, 171] {
+                let ray = view.ray(&row, x, fraction);
+                let meeting = sphere.meet_likely::<{ uses::ALL }>(&ray, false, A::FAR);
+                assert!(meeting.is_none(), "row {y}, {x} and {fraction}/256");
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
     #[test]
@@ -147,6 +163,30 @@ proptest! {
     }
 
     #[test]
+    fn no_sphere_is_missed_in_a_row(
+        center in uniform3(-50.0f64..50.0),
+        log_r in -6.0f64..6.0,
+        eye in uniform3(-50.0f64..50.0),
+        forward in uniform3(-1.0f64..1.0),
+        up in uniform3(-1.0f64..1.0),
+        log_angle in 0.0f64..7.0,
+        y in 0u16..30,
+    ) {
+        let at = [0, 1, 2].map(|i| eye[i] + forward[i]);
+        let tangent = (log_angle.exp2().to_radians() * 0.5).tan();
+        macro_rules! check {
+            ($a:ty) => {
+                if let Ok(camera) = Camera::<$a>::try_look_at(eye, at, up, tangent) {
+                    is_clear(&camera, Sphere::<$a>::new(center, log_r.exp2(), 0), y);
+                }
+            };
+        }
+        check!(Fixed);
+        check!(f32);
+        check!(f64);
+    }
+
+    #[test]
     fn no_sphere_is_missed_in_a_mirror(
         center in uniform3(-200.0f64..200.0),
         log_r in -6.0f64..6.0,
@@ -174,6 +214,18 @@ proptest! {
         check!(Fixed);
         check!(f32);
         check!(f64);
+    }
+}
+
+#[test]
+fn rows_are_clear_above_and_below() {
+    let camera = Camera::<Fixed>::look_at([0.0; 3], [0.0, 0.0, 5.0], [0.0, 1.0, 0.0], 60.0);
+    let view = View::new(&camera, 40, 30);
+    let sphere = [Sphere::<Fixed>::new([0.0, 0.0, 5.0], 1.0, 0)];
+    let clear = |y| pass_all(&sphere, view, view.row(y, 128), 40);
+    // The sphere's tangent of 0.204 is that of 5.3 rows, of 15.
+    for y in 0..30 {
+        assert_eq!(clear(y), !(10..20).contains(&y), "row {y}");
     }
 }
 
