@@ -455,7 +455,10 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn aim(base: Self::Aim, step: Self::Aim, n: i32, fraction: i32) -> Self::Aim;
     /// `a/n`; `a` for n = 0.
     fn aim_over(a: Self::Aim, n: u32) -> Self::Aim;
-    /// The unit vector along a camera's view vector.
+    /// A camera's vectors forward, right and down for a picture of this size, all by one factor, so that
+    /// [`sight`](Self::sight) is most exact.
+    fn aims(vectors: [[Self::Aim; 3]; 3], width: u16, height: u16) -> [[Self::Aim; 3]; 3];
+    /// The unit vector along a sum of [`aims`](Self::aims).
     fn sight(v: &[Self::Aim; 3]) -> [Self::Unit; 3];
 
     /// What a ray of the speed `d ≥ 0` takes for a length along an axis.

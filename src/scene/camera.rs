@@ -153,21 +153,22 @@ impl<A: Arithmetic> Camera<A> {
 impl<A: Arithmetic> View<A> {
     /// The view for pictures of `width` × `height` pixels.
     pub fn new(camera: &Camera<A>, width: u16, height: u16) -> Self {
+        let vectors = [camera.forward, camera.right, camera.down];
+        let [forward, right, down] = A::aims(vectors, width, height);
         let height = u32::from(height);
-        // Sums by `aim`, which wraps where vectors of the longest permitted add up to too much.
         let step = |v: &[A::Aim; 3]| {
             let f = |a: A::Aim| A::aim_over(A::aim(a, a, 1, 0), height);
             [f(v[0]), f(v[1]), f(v[2])]
         };
-        let (across, down) = (step(&camera.right), step(&camera.down));
+        let (across, step_down) = (step(&right), step(&down));
         // half the width, in pixels and 1/256 of them
         let (whole, part) = (i32::from(width) >> 1, (i32::from(width) & 1) << 7);
         let f = |i: usize| {
-            let top = A::aim(camera.forward[i], camera.down[i], -1, 0);
+            let top = A::aim(forward[i], down[i], -1, 0);
             let left = A::aim(across[i], across[i], -2, 0);
             A::aim(top, left, whole, part)
         };
-        Self { eye: camera.eye, corner: [f(0), f(1), f(2)], across, down }
+        Self { eye: camera.eye, corner: [f(0), f(1), f(2)], across, down: step_down }
     }
 
     /// Where its rays start.

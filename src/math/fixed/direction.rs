@@ -29,7 +29,7 @@ fn inverse_root(s: u32) -> (u32, u32, u32) {
     (reciprocal_root_q29(m), half, m)
 }
 
-/// `t·u / 2²¹` to the nearest, for |t| ≤ 2²² and |u| ≤ 2¹⁷.
+/// `t·u / 2²¹` to the nearest, for |t| ≤ 2²³ and |u| ≤ 2¹⁷.
 #[inline(always)]
 fn rounded_product(t: i32, u: i32) -> i32 {
     let high = (t >> 13).wrapping_mul(u);
@@ -37,31 +37,29 @@ fn rounded_product(t: i32, u: i32) -> i32 {
     high.wrapping_add(low).wrapping_add(1 << 7) >> 8
 }
 
-/// Along three integers: those shifted to where the largest is in 2²⁹ to 2³⁰, the reciprocal y of their
-/// length for which x·y/2²⁹ is the unit vector in Q17, and the length.
+/// The sum of the squares of three integers whose length is below 2³¹, over 2³⁰.
 #[inline(always)]
-fn along(v: &[i32; 3]) -> ([i32; 3], i32, i32) {
-    // Fifteen bits a component, so that three squares fit a word, and five more for the
+fn square_of(x: &[i32; 3]) -> u32 {
+    // Sixteen bits a component, so that three squares fit a word, and five more for the
     // first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
-    let (x, up) = align(v);
     let (mut square, mut correction) = (0u32, 0i32);
-    for x in &x {
+    for x in x {
         let (high, low) = (x >> 15, x >> 10 & 31);
         square = square.wrapping_add(high.wrapping_mul(high) as u32);
         correction = correction.wrapping_add(high.wrapping_mul(low));
     }
-    let (y_q29, half, m) = inverse_root(square.wrapping_add((correction >> 4) as u32));
-    // x·Y·2^(half − 14) in Q17, as x·(Y·2^half in Q15)/2²⁹
-    let y = (y_q29 >> (14 - half)) as i32;
-    let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
-    (x, y, length)
+    square.wrapping_add((correction >> 4) as u32)
 }
 
 /// The unit vector along three integers, to 17 bits, and their length.
 #[inline(always)]
 pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
-    let (x, y, length) = along(v);
+    let (x, up) = align(v);
+    let (y_q29, half, m) = inverse_root(square_of(&x));
+    // x·Y·2^(half − 14) in Q17, as x·(Y·2^half in Q15)/2²⁹
+    let y = (y_q29 >> (14 - half)) as i32;
     let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
+    let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
     ([unit(x[0]), unit(x[1]), unit(x[2])], length)
 }
 
@@ -69,9 +67,51 @@ pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
 /// the horizon.
 #[inline(always)]
 pub(super) fn sight(v: &[i32; 3]) -> [Unit; 3] {
-    let (x, y, _) = along(v);
+    let square = square_of(v);
+    // Less than half as long as the longest of the picture.
+    if square < 1 << 28 {
+        return aligned_sight(*v);
+    }
+    sight_of_square(v, square)
+}
+
+#[inline(always)]
+fn sight_of_square(x: &[i32; 3], square: u32) -> [Unit; 3] {
+    let (y_q29, half, _) = inverse_root(square);
+    // As in `unit_along`.
+    let y = (y_q29 >> (14 - half)) as i32;
     let unit = |x: i32| Unit::from_bits(rounded_product(x >> 8, y));
     [unit(x[0]), unit(x[1]), unit(x[2])]
+}
+
+#[inline(never)]
+fn aligned_sight(v: [i32; 3]) -> [Unit; 3] {
+    let (x, _) = align(&v);
+    sight_of_square(&x, square_of(&x))
+}
+
+/// See `Arithmetic::aims`. The longest direction towards the picture, a corner's, comes between 2³⁰ and 2³¹ steps.
+pub(super) fn aims(vectors: &[[i32; 3]; 3], width: u16, height: u16) -> [[i32; 3]; 3] {
+    // In steps of 2⁻¹²: three squares fit 64 bits.
+    let coarse = |x: i32| i64::from(x >> 14);
+    let mut most = 0u64;
+    for (left, up) in [(false, false), (false, true), (true, false), (true, true)] {
+        let mut square = 0u64;
+        for i in 0..3 {
+            let [forward, right, down] = vectors.map(|v| coarse(v[i]));
+            let aside = right.wrapping_mul(i64::from(width)).checked_div(i64::from(height));
+            let (aside, down) = (aside.unwrap_or(0), if up { -down } else { down });
+            let sum = forward.wrapping_add(if left { -aside } else { aside }).wrapping_add(down);
+            // Each of the three is rounded, what lies aside by up to one for each height in the width.
+            let part = sum.unsigned_abs().wrapping_add(u64::from(width / height.max(1)) + 4);
+            square = square.wrapping_add(part.wrapping_mul(part));
+        }
+        most = if square > most { square } else { most };
+    }
+    // |v|² is below most·2²⁸, which is to be below 2⁶².
+    let up = (most.leading_zeros() as i32 - 30) >> 1;
+    let scaled = |x: i32| if up >= 0 { x << (up & 31) } else { x >> (-up & 31) };
+    vectors.map(|v| v.map(scaled))
 }
 
 /// See `Arithmetic::normalize`.

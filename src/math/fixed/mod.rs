@@ -553,6 +553,11 @@ impl Arithmetic for Fixed {
         bits.map_or(a, |bits| Aim::from_bits(bits as i32))
     }
 
+    fn aims(vectors: [[Aim; 3]; 3], width: u16, height: u16) -> [[Aim; 3]; 3] {
+        let bits = vectors.map(|v| v.map(Aim::to_bits));
+        direction::aims(&bits, width, height).map(|v| v.map(Aim::from_bits))
+    }
+
     #[inline(always)]
     fn sight(v: &[Aim; 3]) -> [Unit; 3] {
         direction::sight(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()])

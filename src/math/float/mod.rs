@@ -526,6 +526,10 @@ macro_rules! float {
                 if n == 0 { a } else { a / n as $f }
             }
 
+            fn aims(vectors: [[$f; 3]; 3], _: u16, _: u16) -> [[$f; 3]; 3] {
+                vectors
+            }
+
             #[inline(always)]
             fn sight(v: &[$f; 3]) -> [$f; 3] {
                 Self::normalize(v).0
