@@ -21,8 +21,10 @@ const LIGHTS: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Vantage(u8);
 
-/// So many vantage points that are no spheres have what is seen from them remembered.
+/// So many vantage points that are no spheres have what is seen from them remembered,
 const POINTS: usize = 2;
+/// and so many spheres: each takes 132 bytes of memory.
+const SPHERES: usize = 4;
 
 impl Vantage {
     /// Nothing is known.
@@ -35,7 +37,7 @@ impl Vantage {
     /// The surface of the sphere of this number, which rays leave to either side.
     #[inline(always)]
     pub(super) fn sphere(number: u32) -> Self {
-        if number < FEW as u32 { Self(number as u8 + POINTS as u8) } else { Self::ANYWHERE }
+        if number < SPHERES as u32 { Self(number as u8 + POINTS as u8) } else { Self::ANYWHERE }
     }
 }
 
@@ -160,14 +162,14 @@ pub(super) use each_ahead;
 /// first lights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sights<A: Arithmetic> {
-    from: [Sight<A>; POINTS + FEW],
+    from: [Sight<A>; POINTS + SPHERES],
     lights: [Sight<A>; LIGHTS],
 }
 
 impl<A: Arithmetic> Sights<A> {
     /// Of no scene.
     pub(super) const NONE: Self =
-        Self { from: [Sight::ANY; POINTS + FEW], lights: [Sight::ANY; LIGHTS] };
+        Self { from: [Sight::ANY; POINTS + SPHERES], lights: [Sight::ANY; LIGHTS] };
 
     /// Looks from an eye and from what stands in the scene. Nothing is left of the scene before.
     pub(super) fn look<const USES: u64>(
