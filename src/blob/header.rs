@@ -12,7 +12,7 @@ use crate::shape::{
 };
 
 /// The version of the layout that this library writes and reads.
-pub const VERSION: u16 = 4;
+pub const VERSION: u16 = 5;
 
 /// Kinds of lists of shapes, edges and planes included.
 pub(super) const LISTS: usize = 10;

@@ -298,6 +298,17 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     ) -> bool {
         true
     }
+    /// The same answer, for a sphere near the ray's way, like those that a walk through a tree finds: few lie
+    /// beyond `limit`, or behind.
+    #[inline(always)]
+    fn may_hit_near(
+        _ray: &Self::Coarse,
+        _center: &[Self::Length; 3],
+        _r: &Self::Radius,
+        _limit: Self::Length,
+    ) -> bool {
+        true
+    }
 
     /// Whether the line of a ray may come within `r` of the line through `p` along `axis`: cheap, and
     /// never wrong when it says no.
@@ -474,15 +485,18 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
         pace: &Self::Pace,
         unit: u8,
     ) -> (Self::Span, Self::Span);
-    /// How many whole cells of an octree's grid lie before `o`: exactly in fixed point, and 0 where it is
-    /// negative. `per` is what the arithmetic's constructors make of a cell's side.
-    fn cells_before(o: Self::Length, per: Self::Span, unit: u8) -> u32;
+    /// How many whole cells of an octree's grid lie before `o`, which lies before the end of cell `last`:
+    /// exactly in fixed point, and 0 where it is negative. `per` is what the arithmetic's constructors make
+    /// of a cell's side.
+    fn cells_before(o: Self::Length, per: Self::Span, last: u32, unit: u8) -> u32;
     /// The length of `n` cells, for up to 8.
     fn cells_long(cell: Self::Length, n: u32) -> Self::Length;
     /// A distance as a span, rounded up so that an end is never early.
     fn span(t: Self::Length, unit: u8) -> Self::Span;
     /// A span and `n` times another, for up to 7: no more than adding that as often gives.
     fn spans_on(first: Self::Span, s: Self::Span, n: u32) -> Self::Span;
+    /// Where a span `s` begins that ends at `end`, or up to 2⁻¹⁹·s earlier.
+    fn span_before(end: Self::Span, s: Self::Span) -> Self::Span;
     /// `R·v`; in fixed point within two steps, for |v| ≤ 2048.
     fn rotate(r: &Self::Rotation, v: &[Self::Length; 3]) -> [Self::Length; 3];
     /// `Rᵀ·v`, the way back.

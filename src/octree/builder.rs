@@ -254,8 +254,8 @@ const fn write_leaf(
 
 /// Builds the tree over the extents, whose ids are their indices.
 ///
-/// Eight words a shape are the rule, and four words of scratch; both depend on how the shapes
-/// lie, and never more than `levels + 3` words of scratch a shape are needed.
+/// Eight words a shape are the rule, besides one for each cell of the grid, and four words of scratch;
+/// both depend on how the shapes lie, and never more than `levels + 3` words of scratch a shape are needed.
 ///
 /// # Errors
 /// A shape out of range, or too little memory.
@@ -287,11 +287,11 @@ pub const fn build_into(
     if extents.is_empty() {
         return Ok(built);
     }
-    if words.len() <= grid.rows() {
+    if words.len() <= grid.count() {
         return Err(BuildError::Words);
     }
     set(words, 0, grid.word());
-    let mut used = 1 + grid.rows();
+    let mut used = 1 + grid.count();
     built.levels = grid.levels();
 
     // Levels below the grid's cells.
@@ -330,14 +330,10 @@ pub const fn build_into(
             built.scratch = list.end;
         }
         let children = fill(extents, scratch, list, &grid, (&min, margin));
-        let Some(word) = node::inner(children, used) else { return Err(BuildError::Words) };
+        // The row's cells are like the children of a node, but all have words.
+        parents[0] =
+            Parent { min, list, children, next: 0, slot: 1 + row * grid.cells[0] as usize };
         row += 1;
-        set(words, row, word);
-        parents[0] = Parent { min, list, children, next: 0, slot: used };
-        used += node::population(children) as usize;
-        if used > words.len() {
-            return Err(BuildError::Words);
-        }
         let mut level = 1;
         while level > 0 {
             // The next child of the innermost parent.
@@ -349,6 +345,10 @@ pub const fn build_into(
             }
             parent.next += 1;
             if parent.children >> child & 1 == 0 {
+                if level == 1 {
+                    set(words, parent.slot, node::EMPTY);
+                    parent.slot += 1;
+                }
                 continue;
             }
             let slot = parent.slot;

@@ -15,13 +15,13 @@
 use super::Extent;
 use super::overlap::bounds;
 
-/// The grid has no more cells along an axis: a bit for each in a row's word.
+/// The grid has no more cells along an axis: three bits of the root's word.
 pub(super) const MAX_CELLS: usize = 8;
 
-/// Cycles on a Cortex-M0+, roughly: for a cell of the grid, and for the test of a sphere or of another
-/// shape, most of which miss.
-const CELL_COST: usize = 80;
-const SPHERE_COST: usize = 150;
+/// Cycles on a Cortex-M0+, roughly: for a cell of the grid, its leaf among them, and for the test of a sphere
+/// or of another shape, most of which miss. Of a sphere's copies every third has been tested already.
+const CELL_COST: usize = 110;
+const SPHERE_COST: usize = 90;
 const TEST_COST: usize = 300;
 
 /// What rounding adds to an extent and to a test of it, in steps.
@@ -80,6 +80,11 @@ impl Grid {
     /// How many rows there are.
     pub(super) const fn rows(&self) -> usize {
         self.cells[1] as usize * self.cells[2] as usize
+    }
+
+    /// How many cells there are.
+    pub(super) const fn count(&self) -> usize {
+        self.cells[0] as usize * self.rows()
     }
 
     /// How often a cube would have to be halved for such cells.

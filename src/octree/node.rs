@@ -1,13 +1,13 @@
 //! The tree's words. One array of `u32` holds everything; a tree without shapes has no words at all.
 //!
 //! The root is a grid of up to 8×8×8 cells: word 0 says how many and how large ([`Grid`]), and a word
-//! for each row along x follows, those of one z together. A row is like an inner node, but its children lie
-//! beside each other in x, and it may have none. Each cell of the grid is a leaf or an inner node, whose
-//! children are its octants.
+//! for each cell follows, those along x beside each other, then those along y. A cell is empty, a leaf or
+//! an inner node, whose children are its octants.
 //!
 //! | word | bit 31 | bit 30 | below |
 //! |---|---|---|---|
-//! | row, inner node | 0 | 30 to 23: which of the eight children exist | 22 to 0: index of the first one's word |
+//! | empty cell of the grid | 0 | 0 | 0 |
+//! | inner node | 0 | 30 to 23: which of the eight children exist | 22 to 0: index of the first one's word |
 //! | leaf, its ids inline | 1 | 0 | 29 to 0: ids |
 //! | leaf, its ids elsewhere | 1 | 1 | 29 to 0: index of the run's first word |
 //! | word of a run | 1 | another word of the run follows | 29 to 0: ids |
@@ -95,23 +95,8 @@ pub(super) fn child(inner: u32, number: u32) -> Option<usize> {
     Some(first(inner) + population(children & (bit - 1)) as usize)
 }
 
-/// A child's place, of which a row has so many, the first one's being [`FIRST_PLACE`]: by so many bits
-/// a word is to be rotated for the child's bit to be the highest.
-pub(super) const PLACES: u32 = 32;
-pub(super) const FIRST_PLACE: u32 = INDEX_BITS + 1;
-
-/// Whether the child at this place exists.
-#[inline(always)]
-pub(super) const fn exists(inner: u32, place: u32) -> bool {
-    (inner.rotate_right(place % PLACES) as i32) < 0
-}
-
-/// Where the word of the child at this place is, that exists.
-#[inline(always)]
-pub(super) const fn index(inner: u32, place: u32) -> usize {
-    let before = (1 << (place & 7)) - 1;
-    first(inner) + population(children(inner) & before) as usize
-}
+/// A cell of the grid in which nothing lies.
+pub(super) const EMPTY: u32 = 0;
 
 /// A leaf whose ids are in a run.
 pub(super) const fn leaf_of_run(first: usize) -> u32 {
@@ -178,7 +163,7 @@ impl IdWidth {
     /// The ids of a leaf or of a run's word.
     #[inline(always)]
     pub(super) const fn ids(self, word: u32) -> Ids {
-        Ids { rest: (word | LEAF | MORE) as i32, width: self }
+        Ids { rest: (word | MORE) as i32, width: self }
     }
 }
 
@@ -191,15 +176,16 @@ pub(super) struct Ids {
 impl Ids {
     #[inline(always)]
     pub(super) const fn next(&mut self) -> Option<u32> {
-        let id = self.rest as u32 & self.width.mask;
-        if id == self.width.mask {
+        if self.is_over() {
             return None;
         }
+        let id = self.rest as u32 & self.width.mask;
         self.rest >>= self.width.bits & 31;
         Some(id)
     }
 
     /// Whether all that is left is ones.
+    #[inline(always)]
     pub(super) const fn is_over(&self) -> bool {
         self.rest == -1
     }
@@ -214,11 +200,11 @@ pub enum TreeError {
     TooManyShapes,
     /// The cube is too small, too large or too far away.
     Cube,
-    /// The root is no grid, or has a row that is none.
+    /// The root is no grid.
     Grid,
     /// Children or a run of ids aren't where the order wants them.
     Order,
-    /// Rows, children or a run of ids don't end within the words.
+    /// Cells, children or a run of ids don't end within the words.
     Truncated,
     /// An inner node has no children.
     Childless,
@@ -276,14 +262,14 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
         return if shapes == 0 { Ok(0) } else { Err(TreeError::Length) };
     }
     let Some(grid) = Grid::read(word(words, 0)) else { return Err(TreeError::Grid) };
-    if words.len() <= grid.rows() {
+    if words.len() <= grid.count() {
         return Err(TreeError::Truncated);
     }
-    // For each level the next word of the row, and its end; the grid's rows are level 0, its cells 1.
+    // For each level the next word of the row, and its end; the grid's cells are level 0.
     let mut next = [0; ROOM];
     let mut end = [0; ROOM];
-    let (mut level, mut deepest) = (0, 1);
-    let mut used = 1 + grid.rows();
+    let (mut level, mut deepest) = (0, 0);
+    let mut used = 1 + grid.count();
     (next[0], end[0]) = (1, used);
     loop {
         let current = level % ROOM;
@@ -296,15 +282,15 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
         }
         let word = self::word(words, next[current]);
         next[current] += 1;
-        if level == 0 && (is_leaf(word) || children(word) >> grid.cells[0] != 0) {
-            return Err(TreeError::Grid);
+        if level == 0 && word == EMPTY {
+            continue;
         }
         if !is_leaf(word) {
             let (start, length) = (first(word), population(children(word)) as usize);
-            if length == 0 && level > 0 {
+            if length == 0 {
                 return Err(TreeError::Childless);
             }
-            if level > MAX_LEVELS {
+            if level == MAX_LEVELS {
                 return Err(TreeError::TooDeep);
             }
             if start != used {
@@ -340,9 +326,5 @@ pub const fn validate(words: &[u32], shapes: usize) -> Result<u8, TreeError> {
             return Err(TreeError::Id);
         }
     }
-    if used == words.len() {
-        Ok(grid.levels() + (deepest - 1) as u8)
-    } else {
-        Err(TreeError::Length)
-    }
+    if used == words.len() { Ok(grid.levels() + deepest as u8) } else { Err(TreeError::Length) }
 }

@@ -25,7 +25,7 @@ use super::OctreeBuffer;
 use super::builder::{LEAST_LOG2_SIDE, MOST_LOG2_SIDE};
 use super::grid::{self, Grid};
 use super::limits::Cube;
-use super::node::{self, FIRST_PLACE, IdWidth, MAX_LEVELS, PLACES, TreeError, validate};
+use super::node::{self, IdWidth, MAX_LEVELS, TreeError, validate};
 use crate::math::{Arithmetic, for_each_arithmetic, sub};
 
 /// What a walk finds is its visitor's business.
@@ -195,6 +195,11 @@ impl<A: Arithmetic> Octree<'_, A> {
         self.shapes
     }
 
+    /// How many cells the grid has.
+    fn count(&self) -> u32 {
+        self.cells.iter().map(|n| u32::from(*n)).product()
+    }
+
     /// Shows the visitor the shapes that the ray may meet nearer than the visitor's limit, about
     /// in the order of the ray.
     #[inline(always)]
@@ -241,60 +246,59 @@ impl<A: Arithmetic> Octree<'_, A> {
         if A::NO_SPAN > bound {
             return;
         }
-        // For each axis the cell that the ray starts in, its exit, and where the ray leaves the grid.
-        let (mut exits, mut whole, mut cell) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3], [0; 3]);
-        let last = self.cells.map(|n| u32::from(n) - 1);
         for axis in 0..3 {
-            let before = A::cells_before(o[axis], self.per_cell, self.unit);
-            let Some(more) = last[axis].checked_sub(before) else { return };
+            if o[axis] >= self.sides[axis] {
+                return;
+            }
+        }
+        // For each axis the exit of the cell that the ray starts in, and where the ray leaves the grid. One
+        // axis after the other, and nothing to return for on the way: otherwise the compiler works out for
+        // all axes at once what it can, and puts it by.
+        let (mut exits, mut whole) = ([A::NO_SPAN; 3], [A::NO_SPAN; 3]);
+        let [row, column, _] = self.cells.map(u32::from);
+        // The place of the cell's word, and what a step adds to it.
+        let mut place = 1u32;
+        let mut steps = [1, row, row.wrapping_mul(column)];
+        for axis in 0..3 {
+            let last = u32::from(self.cells[axis]) - 1;
+            let before = A::cells_before(o[axis], self.per_cell, last, self.unit);
+            // Where the axis is mirrored: all ones, and the way leads back from the last cell.
+            let flip = (mirror >> axis & 1u32).wrapping_neg();
+            place = place.wrapping_add(last.wrapping_mul(steps[axis]) & flip);
+            steps[axis] = (steps[axis] ^ flip).wrapping_sub(flip);
+            place = place.wrapping_add(steps[axis].wrapping_mul(before));
             let left = A::cells_long(self.cell, before + 1) - o[axis];
             (exits[axis], whole[axis]) = A::spans(left, self.cell, &pace[axis], self.unit);
             // No later than the last cell's exit, so that no ray steps off the grid.
-            let end = A::spans_on(exits[axis], whole[axis], more);
+            let end = A::spans_on(exits[axis], whole[axis], last.wrapping_sub(before));
             if end < bound {
                 bound = end;
             }
-            cell[axis] = if mirror >> axis & 1 != 0 { more } else { before };
         }
-        // Where the row's word is, and below, a cell's bit in it as a shift.
-        let rows = u32::from(self.cells[1]);
-        let step =
-            |axis: u32, by: u32| if mirror >> axis & 1 != 0 { by.wrapping_neg() } else { by };
-        let steps = [step(0, 1), step(1, PLACES), step(2, PLACES.wrapping_mul(rows))];
-        let row = cell[2].wrapping_mul(rows).wrapping_add(cell[1]).wrapping_add(1);
-        let mut place = row.wrapping_mul(PLACES).wrapping_add(cell[0]).wrapping_add(FIRST_PLACE);
         let [mut exit_x, mut exit_y, mut exit_z] = exits;
         let mut recent = [u32::MAX; RECENT];
         visitor.node();
         loop {
             visitor.step();
-            debug_assert!(
-                (place % PLACES).wrapping_sub(FIRST_PLACE) <= last[0]
-                    && (place / PLACES).wrapping_sub(1) < rows * (last[2] + 1),
-                "off the grid"
-            );
-            let Some(&word) = self.words.get((place / PLACES) as usize) else { return };
-            if node::exists(word, place) {
-                let Some(&below) = self.words.get(node::index(word, place)) else { return };
-                if node::is_leaf(below) {
-                    if self.visit_leaf(below, &mut recent, back, &mut bound, visitor) {
-                        return;
-                    }
-                } else {
-                    let [grid, ..] = &mut stack.frames;
-                    grid.ends = [exit_x, exit_y, exit_z];
-                    // Where the cell is entered: the walk hasn't kept it. Floats round what is added and
-                    // taken off again, by less than 2⁻²⁰ of a cell: too early does no harm.
-                    let mut entry = A::NO_SPAN;
-                    for axis in 0..3 {
-                        let before = grid.ends[axis] - whole[axis] - A::halved(whole[axis], 19);
-                        entry = if before > entry { before } else { entry };
-                    }
-                    let way = Way { whole, back, mirror, entry, bound };
-                    match self.walk_below(below, way, &mut recent, stack, visitor) {
-                        Some(nearer) => bound = nearer,
-                        None => return,
-                    }
+            debug_assert!((1..=self.count()).contains(&place), "off the grid");
+            let Some(&below) = self.words.get(place as usize) else { return };
+            if node::is_leaf(below) {
+                if self.visit_leaf(below, &mut recent, back, &mut bound, visitor) {
+                    return;
+                }
+            } else if below != node::EMPTY {
+                let [grid, ..] = &mut stack.frames;
+                grid.ends = [exit_x, exit_y, exit_z];
+                // Where the cell is entered: the walk hasn't kept it.
+                let mut entry = A::NO_SPAN;
+                for axis in 0..3 {
+                    let before = A::span_before(grid.ends[axis], whole[axis]);
+                    entry = if before > entry { before } else { entry };
+                }
+                let way = Way { whole, back, mirror, entry, bound };
+                match self.walk_below(below, way, &mut recent, stack, visitor) {
+                    Some(nearer) => bound = nearer,
+                    None => return,
                 }
             }
             // On through the nearest face.
@@ -395,15 +399,14 @@ impl<A: Arithmetic> Octree<'_, A> {
         bound: &mut A::Span,
         visitor: &mut V,
     ) -> bool {
-        // What of a run follows, 0 where nothing does.
-        let (mut word, mut next) = (leaf, 0);
+        let (mut word, mut place) = (leaf, 0);
         if let Some(start) = node::run(leaf) {
             let Some(&first) = self.words.get(start) else { return false };
-            (word, next) = (first, if node::continues(first) { start + 1 } else { 0 });
+            (word, place) = (first, start);
         }
-        let mut ids = self.width.ids(word);
         loop {
-            if let Some(id) = ids.next() {
+            let mut ids = self.width.ids(word);
+            while let Some(id) = ids.next() {
                 // Large shapes lie in many cells.
                 if id != recent[id as usize % RECENT] {
                     recent[id as usize % RECENT] = id;
@@ -418,14 +421,14 @@ impl<A: Arithmetic> Octree<'_, A> {
                         *bound = if limit < *bound { limit } else { *bound };
                     }
                 }
-            } else {
-                if next == 0 {
-                    return false;
-                }
-                let Some(&word) = self.words.get(next) else { return false };
-                next = if node::continues(word) { next + 1 } else { 0 };
-                ids = self.width.ids(word);
             }
+            // A leaf whose ids are inline isn't continued.
+            if !node::continues(word) {
+                return false;
+            }
+            place += 1;
+            let Some(&next) = self.words.get(place) else { return false };
+            word = next;
         }
     }
 }

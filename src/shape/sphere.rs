@@ -153,6 +153,12 @@ impl<A: Arithmetic> Sphere<A> {
         self.meet_likely::<USES>(ray, inwards, limit)
     }
 
+    /// Whether a ray that passes near may meet it: see [`Arithmetic::may_hit_near`].
+    #[inline(always)]
+    pub(crate) fn may_be_met(&self, coarse: &A::Coarse, limit: A::Length) -> bool {
+        A::may_hit_near(coarse, &self.center, &self.radius, limit)
+    }
+
     /// The same for a ray that probably meets it.
     #[inline(always)]
     pub(crate) fn meet_likely<const USES: u64>(

@@ -1,6 +1,6 @@
 //! The nearest hit along a ray.
 
-use super::meet::{meet, meet_any};
+use super::meet::meet_any;
 use super::sight::{Ahead, are_few, each_ahead};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
@@ -33,25 +33,57 @@ impl<A: Arithmetic> Hit<A> {
     }
 }
 
+/// Where a ray meets a sphere that the coarse test lets through, as few are. The distance is 0 for nowhere:
+/// two numbers come back in registers.
+///
+/// Out of line where there are few of those, since all that the walk keeps would have to make way for this.
+/// By number, for a scene that the compiler knows is known here, too.
+#[cfg_attr(narrow_multiply, cold, inline(never))]
+#[cfg_attr(not(narrow_multiply), inline(always))]
+fn meet_sphere<'s, A: Arithmetic, L>(
+    shapes: L,
+    id: u32,
+    ray: &Ray<A>,
+    limit: A::Length,
+) -> Meeting<A>
+where
+    L: Copy + Deref<Target = Shapes<'s, A>>,
+{
+    let left = id == ray.leaving.shape;
+    if (!left || ray.leaving.inwards)
+        && let Some(sphere) = shapes.spheres.get(id as usize)
+        && let Some(meeting) = sphere.meet_likely::<{ uses::ALL }>(ray, left, limit)
+    {
+        return meeting;
+    }
+    Meeting { distance: A::NO_LENGTH, detail: A::NO_LENGTH }
+}
+
 /// The search that goes on where spheres and planes are not all, or lie in a tree.
-struct Search<'r, 'a, A: Arithmetic, T, const USES: u64> {
-    shapes: &'r Shapes<'a, A>,
+struct Search<'r, A: Arithmetic, T, L, const USES: u64> {
+    shapes: L,
     ray: &'r Ray<A>,
     coarse: A::Coarse,
     best: Hit<A>,
     tally: &'r mut T,
 }
 
-impl<A: Arithmetic, T: Tally, const USES: u64> Search<'_, '_, A, T, USES> {
+impl<'s, A: Arithmetic, T: Tally, L, const USES: u64> Search<'_, A, T, L, USES>
+where
+    L: Copy + Deref<Target = Shapes<'s, A>>,
+{
     #[inline(always)]
     fn test_any(&mut self, id: u32) {
         self.tally.test();
         let limit = self.best.distance;
-        self.best.take(meet_any::<A, USES>(self.shapes, id, self.ray, &self.coarse, limit), id);
+        self.best.take(meet_any::<A, USES>(&self.shapes, id, self.ray, &self.coarse, limit), id);
     }
 }
 
-impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, T, USES> {
+impl<'s, A: Arithmetic, T: Tally, L, const USES: u64> Visitor<A> for Search<'_, A, T, L, USES>
+where
+    L: Copy + Deref<Target = Shapes<'s, A>>,
+{
     #[inline(always)]
     fn limit(&self) -> A::Length {
         self.best.distance
@@ -63,7 +95,12 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
             Some(sphere) => {
                 self.tally.test();
                 let limit = self.best.distance;
-                self.best.take(meet(sphere, id, self.ray, &self.coarse, limit), id);
+                if sphere.may_be_met(&self.coarse, limit) {
+                    let meeting = meet_sphere(self.shapes, id, self.ray, limit);
+                    if meeting.distance > A::NO_LENGTH {
+                        self.best.take(Some(meeting), id);
+                    }
+                }
             }
             None => self.test_any(id),
         }
@@ -76,23 +113,23 @@ impl<A: Arithmetic, T: Tally, const USES: u64> Visitor<A> for Search<'_, '_, A, 
     }
 }
 
-/// Goes on from the best hit so far with the tree, or with those shapes that nobody tests else.
+/// The nearest hit no farther than `limit` in the tree, or of those shapes that nobody tests else.
 /// Out of line and by value, so that the short loops keep their numbers in registers.
 #[inline(never)]
 fn search<'s, A: Arithmetic, T: Tally, L, const USES: u64>(
     shapes: L,
     rest: Range<u32>,
     ray: Ray<A>,
-    best: Hit<A>,
+    limit: A::Length,
     walk: &mut WalkStack<A>,
     tally: &mut T,
 ) -> Hit<A>
 where
     L: Copy + Deref<Target = Shapes<'s, A>>,
 {
-    let shapes = &*shapes;
     let coarse = A::coarse(&ray.origin, &ray.direction);
-    let mut search = Search::<A, T, USES> { shapes, ray: &ray, coarse, best, tally };
+    let best = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
+    let mut search = Search::<A, T, L, USES> { shapes, ray: &ray, coarse, best, tally };
     if has(USES, uses::TREE)
         && let Some(tree) = &shapes.tree
     {
@@ -124,9 +161,8 @@ where
         let group = instance.group();
         if let Some(inside) = instance.enter(first, &ray, &coarse, best.distance) {
             let limit = instance.distance_inside(&inside, best.distance);
-            let none = Hit { distance: limit, detail: A::NO_LENGTH, shape: u32::MAX };
             let rest = 0..group.count;
-            let hit = search::<A, T, _, USES>(&group.shapes, rest, inside.ray, none, walk, tally);
+            let hit = search::<A, T, _, USES>(&group.shapes, rest, inside.ray, limit, walk, tally);
             if hit.shape != u32::MAX && hit.distance < A::FAR {
                 let distance = instance.distance_outside(&inside, hit.distance);
                 let id = first.wrapping_add(hit.shape);
@@ -202,11 +238,13 @@ where
     let count = shapes.spheres.len() as u32;
     if tree || has_others(USES) && count != scene.bounded {
         let rest = count..scene.bounded;
-        best = if is_known::<S>() {
-            search::<A, T, _, USES>(ShapesOf(scene), rest, *ray, best, walk, tally)
+        let limit = best.distance;
+        let Hit { distance, detail, shape } = if is_known::<S>() {
+            search::<A, T, _, USES>(ShapesOf(scene), rest, *ray, limit, walk, tally)
         } else {
-            search::<A, T, _, USES>(shapes, rest, *ray, best, walk, tally)
+            search::<A, T, _, USES>(shapes, rest, *ray, limit, walk, tally)
         };
+        best.take(Some(Meeting { distance, detail }), shape);
     }
     if has(USES, uses::INSTANCES) && !parts.instances.is_empty() {
         best = in_instances(scene, *ray, best, walk, tally);

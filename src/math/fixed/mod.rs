@@ -274,7 +274,17 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn may_hit(ray: &FixedCoarse, center: &[I16F16; 3], r: &FixedRadius, limit: I16F16) -> bool {
-        round::may_hit(ray, center, r, limit)
+        round::may_hit::<false>(ray, center, r, limit)
+    }
+
+    #[inline(always)]
+    fn may_hit_near(
+        ray: &FixedCoarse,
+        center: &[I16F16; 3],
+        r: &FixedRadius,
+        limit: I16F16,
+    ) -> bool {
+        round::may_hit::<true>(ray, center, r, limit)
     }
 
     #[inline(always)]
@@ -579,7 +589,7 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
+    fn cells_before(o: I16F16, per: i32, _: u32, unit: u8) -> u32 {
         walk::cells_before(o, per, unit)
     }
 
@@ -596,6 +606,11 @@ impl Arithmetic for Fixed {
     #[inline(always)]
     fn spans_on(first: i32, s: i32, n: u32) -> i32 {
         first.wrapping_add(s.wrapping_mul(n as i32))
+    }
+
+    #[inline(always)]
+    fn span_before(end: i32, s: i32) -> i32 {
+        end.wrapping_sub(s)
     }
 
     #[inline(always)]

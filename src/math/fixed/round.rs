@@ -94,9 +94,10 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
-/// See `Arithmetic::may_hit`.
+/// See `Arithmetic::may_hit` and, where the ray passes near, `Arithmetic::may_hit_near`: the order in which
+/// the same is asked.
 #[inline(always)]
-pub(super) fn may_hit(
+pub(super) fn may_hit<const NEAR: bool>(
     ray: &FixedCoarse,
     center: &[I16F16; 3],
     r: &FixedRadius,
@@ -112,7 +113,8 @@ pub(super) fn may_hit(
     let r = (r.coarse as i32).wrapping_add(t >> 11);
     let reach = (r as u32) << 1;
     let last = (limit.to_bits() >> COARSE_SHIFT) as u32;
-    if t.wrapping_add(r) as u32 > last.wrapping_add(reach) {
+    let beyond = || t.wrapping_add(r) as u32 > last.wrapping_add(reach);
+    if !NEAR && beyond() {
         return false;
     }
     let mut square = 0u32;
@@ -122,6 +124,9 @@ pub(super) fn may_hit(
             return false;
         }
         square = square.wrapping_add(f.wrapping_mul(f) as u32);
+    }
+    if NEAR && beyond() {
+        return false;
     }
     // beyond 2¹⁵ steps (256 units) the squares don't fit, and the three bounds must do
     r >= 1 << 15 || square <= r.wrapping_mul(r) as u32

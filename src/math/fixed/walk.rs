@@ -49,11 +49,5 @@ pub(super) fn span_of(a: I16F16, pace: &FixedPace, unit: u8) -> i32 {
 pub(super) fn cells_before(o: I16F16, per: i32, unit: u8) -> u32 {
     // Eleven bits hold eight cells; times thirteen: see `per_cell`.
     let o = o.to_bits() >> (unit & 31) >> 6;
-    if (o as u32) < 1 << 11 {
-        (o as u32).wrapping_mul(per as u32) >> 20
-    } else if o < 0 {
-        0
-    } else {
-        u32::MAX
-    }
+    ((o & !(o >> 31)) as u32).wrapping_mul(per as u32) >> 20
 }

@@ -551,9 +551,10 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn cells_before(o: $f, per: $f, _: u8) -> u32 {
+            fn cells_before(o: $f, per: $f, last: u32, _: u8) -> u32 {
                 // Saturating: below 0 there are none.
-                (o * per) as u32
+                let n = (o * per) as u32;
+                if n > last { last } else { n }
             }
 
             #[inline(always)]
@@ -572,6 +573,13 @@ macro_rules! float {
                 // Seven sums may be rounded down, a product and a sum up.
                 let sum = first + s * n as $f;
                 sum - sum.abs() * (16.0 * $eps)
+            }
+
+            #[inline(always)]
+            fn span_before(end: $f, s: $f) -> $f {
+                // The walk has rounded what it added, and what is taken off again is rounded, too: by
+                // less than 2⁻²⁰ of a cell.
+                end - s - Self::halved(s, 19)
             }
 
             #[inline(always)]

@@ -159,8 +159,9 @@ fn leaf_at(words: &[u32], count: usize, built: &Built, p: &[f64; 3]) -> Vec<u32>
     let mut min = built.cube.origin.map(f64::from);
     let cell = [0, 1, 2].map(|i| ((p[i] - min[i]) / side) as usize);
     min = [0, 1, 2].map(|i| min[i] + cell[i] as f64 * side);
-    let row = words[1 + cell[2] * usize::from(grid.cells[1]) + cell[1]];
-    let mut word = words[node::child(row, cell[0] as u32).expect("no cell where a shape is")];
+    let [row, column, _] = grid.cells.map(usize::from);
+    let mut word = words[1 + (cell[2] * column + cell[1]) * row + cell[0]];
+    assert_ne!(word, node::EMPTY, "no cell where a shape is");
     while !node::is_leaf(word) {
         side /= 2.0;
         let mut number = 0;

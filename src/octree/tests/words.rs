@@ -62,7 +62,7 @@ fn errors() {
     assert_eq!(build(&inverted, 10, 10).unwrap_err(), BuildError::Extent);
     let all = [Extent::Box { min: [-(1 << 27); 3], max: [1 << 27; 3] }];
     let built = build(&all, 10, 10).unwrap();
-    assert_eq!((built.words, built.cube.log2_side), (3, 29));
+    assert_eq!((built.words, built.cube.log2_side), (2, 29));
     std::assert_eq!(std::format!("{}", BuildError::Words), "too few words for the octree");
 }
 
@@ -80,38 +80,48 @@ fn hostile_words_are_refused() {
     let grid = |cells| Grid::new(cells, 1 << 16).word();
     // One cell.
     let cell = |words: &[u32], shapes| {
-        let mut all = vec![grid([1; 3]), inner(1, 2)];
+        let mut all = vec![grid([1; 3])];
         all.extend(words);
         validate(&all, shapes)
     };
     assert_eq!(cell(&[leaf(&[0, 4])], 5), Ok(0));
-    assert_eq!(cell(&[inner(3, 3), leaf(&[0]), leaf(&[1])], 5), Ok(1));
+    assert_eq!(cell(&[node::EMPTY], 5), Ok(0));
+    assert_eq!(cell(&[inner(3, 2), leaf(&[0]), leaf(&[1])], 5), Ok(1));
     assert_eq!(cell(&[leaf(&[5])], 5), Err(TreeError::Id));
     assert_eq!(cell(&[leaf(&[1]), leaf(&[1])], 5), Err(TreeError::Length));
-    assert_eq!(cell(&[inner(1, 2)], 5), Err(TreeError::Order));
-    assert_eq!(cell(&[inner(0, 3)], 5), Err(TreeError::Childless));
-    assert_eq!(cell(&[inner(3, 3), leaf(&[1])], 5), Err(TreeError::Truncated));
-    assert_eq!(cell(&[node::leaf_of_run(3)], 5), Err(TreeError::Truncated));
-    assert_eq!(cell(&[node::leaf_of_run(2)], 5), Err(TreeError::Order));
-    let chain: Vec<u32> = (3..40).map(|i| inner(1, i)).collect();
-    assert_eq!(cell(&chain, 5), Err(TreeError::TooDeep));
+    assert_eq!(cell(&[inner(1, 1)], 5), Err(TreeError::Order));
+    assert_eq!(cell(&[inner(0, 2)], 5), Err(TreeError::Childless));
+    assert_eq!(cell(&[inner(3, 2), leaf(&[1])], 5), Err(TreeError::Truncated));
+    assert_eq!(cell(&[inner(1, 2), node::EMPTY], 5), Err(TreeError::Childless));
+    assert_eq!(cell(&[node::leaf_of_run(2)], 5), Err(TreeError::Truncated));
+    assert_eq!(cell(&[node::leaf_of_run(1)], 5), Err(TreeError::Order));
+    let chain = |levels| {
+        let mut words: Vec<u32> = (2..2 + levels).map(|i| inner(1, i)).collect();
+        words.push(leaf(&[1]));
+        cell(&words, 5)
+    };
+    assert_eq!(chain(MAX_LEVELS), Ok(MAX_LEVELS as u8));
+    assert_eq!(chain(MAX_LEVELS + 1), Err(TreeError::TooDeep));
     assert_eq!(cell(&[0; 4], 1 << 23), Err(TreeError::TooManyShapes));
     // The grid itself.
-    let (one, none) = (leaf(&[1]), inner(0, 5));
+    let (one, none) = (leaf(&[1]), node::EMPTY);
     assert_eq!(validate(&[], 5), Err(TreeError::Length));
     assert_eq!(validate(&[], 0), Ok(0));
     assert_eq!(validate(&[grid([2, 2, 2])], 5), Err(TreeError::Truncated));
-    assert_eq!(validate(&[grid([2, 2, 2]), none, none, none, none], 5), Ok(1));
-    let rows = [grid([5, 2, 2]), inner(3, 4), one, one, one];
-    assert_eq!(validate(&rows, 5), Err(TreeError::Order));
-    let rows =
-        [grid([5, 2, 2]), inner(17, 5), inner(0, 7), inner(2, 7), inner(0, 8), one, one, one];
-    assert_eq!(validate(&rows, 5), Ok(3));
-    // A cell that isn't in the grid, a row that is a leaf, and words that are no grid.
-    assert_eq!(validate(&[grid([5, 1, 1]), inner(32, 2), one], 5), Err(TreeError::Grid));
-    assert_eq!(validate(&[grid([1; 3]), one], 5), Err(TreeError::Grid));
+    let mut cells = vec![grid([2, 2, 2])];
+    cells.extend([none; 7]);
+    assert_eq!(validate(&cells, 5), Err(TreeError::Truncated));
+    cells.push(none);
+    assert_eq!(validate(&cells, 5), Ok(1));
+    cells.push(one);
+    assert_eq!(validate(&cells, 5), Err(TreeError::Length));
+    let cells = [grid([5, 1, 1]), one, none, inner(5, 6), none, inner(1, 8), one, one, one];
+    assert_eq!(validate(&cells, 5), Ok(4));
+    let cells = [grid([5, 1, 1]), one, none, inner(5, 7), none, inner(1, 6), one, one, one];
+    assert_eq!(validate(&cells, 5), Err(TreeError::Order));
+    // Words that are no grid.
     for bit in [16, 22, 31] {
-        assert_eq!(validate(&[grid([1; 3]) ^ 1 << bit, inner(1, 2), one], 5), Err(TreeError::Grid));
+        assert_eq!(validate(&[grid([1; 3]) ^ 1 << bit, one], 5), Err(TreeError::Grid));
     }
 }
 
@@ -125,15 +135,11 @@ fn nearly_a_tree() -> impl Strategy<Value = (Vec<u32>, usize)> {
         // grown at random in the right order, then perhaps damaged
         let cells = [0; 3].map(|_| 1 + random.below(8) as u8);
         let grid = Grid::new(cells, 1 << (10 + random.below(18)));
-        let mut words = vec![0; 1 + grid.rows()];
+        let mut words = vec![node::EMPTY; 1 + grid.count()];
         words[0] = grid.word();
-        for row in 1..=grid.rows() {
-            let children = random.below(1 << cells[0]) as u32;
-            let first = words.len();
-            words[row] = node::inner(children, first).unwrap();
-            words.resize(first + children.count_ones() as usize, 0);
-            for i in first..words.len() {
-                grow(&mut words, i, 3, count, &mut random);
+        for cell in 1..words.len() {
+            if random.below(2) == 0 {
+                grow(&mut words, cell, 3, count, &mut random);
             }
         }
         for _ in 1..damage {
