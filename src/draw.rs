@@ -150,11 +150,10 @@ where
         // As in `fill`.
         let Some(mut renderer) = self.renderer.take() else { return Ok(Progress::Interrupted) };
         let output = self.output;
-        let result = renderer.refine_area(passes, columns, rows, deadline, |block| {
-            let pixel = output.pixel::<A, C::Pixel>(&block.radiance, block.x, block.y);
+        let result = renderer.refine_area(passes, &output, (columns, rows), deadline, |block| {
             let corner = Point::new(block.x.into(), block.y.into()) + position;
             let size = Size::new(block.width.into(), block.height.into());
-            target.fill_solid(&Rectangle::new(corner, size), C::from_pixel(pixel))
+            target.fill_solid(&Rectangle::new(corner, size), C::from_pixel(block.pixel))
         });
         self.renderer.set(Some(renderer));
         result
@@ -191,10 +190,8 @@ where
         let Some(mut renderer) = self.renderer.take() else { return Ok(()) };
         let corner = Point::new(columns.start.into(), rows.start.into());
         let size = Size::new(columns.len() as u32, rows.len() as u32);
-        let output = self.output;
-        let colors = renderer
-            .scan(columns, rows)
-            .map(|(x, y, radiance)| C::from_pixel(output.pixel::<A, C::Pixel>(&radiance, x, y)));
+        let colors =
+            renderer.pixels(columns, rows, &self.output).map(|(_, _, pixel)| C::from_pixel(pixel));
         let place = Rectangle::new(corner - offset, size);
         let result = target.fill_contiguous(&place, colors);
         self.renderer.set(Some(renderer));

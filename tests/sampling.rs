@@ -2,7 +2,9 @@
 
 use crate::common::make::{Body, Make, Shapes};
 use crate::common::scenes::{Shot, Shots};
-use whitted::frame::{Output, Passes, Progress, Renderer, Rgb888, Sample, Sampling, Settings};
+use whitted::frame::{
+    Output, Passes, Pixel, Progress, Renderer, Rgb888, Sample, Sampling, Settings, Tone,
+};
 use whitted::math::{Arithmetic, Fixed, Rgb};
 use whitted::scene::{Camera, MaterialSpec, Parts, Scene};
 use whitted::tally::Counts;
@@ -63,9 +65,48 @@ fn truth<A: Shots>(name: &str, size: (u16, u16)) -> Vec<[u8; 3]> {
     shown::<A>(&means.iter().map(|m| m.map(|sum| A::mean(sum, 9))).collect::<Vec<_>>())
 }
 
+/// A picture's pixels by a tone, row by row, and the rays it took.
+fn pixels<A: Arithmetic, P: Pixel>(
+    view: (&Scene<'_, A>, &Camera<A>, u8),
+    size: (u16, u16),
+    sampling: Sampling,
+    tone: Tone,
+) -> (Vec<P>, Counts) {
+    with(view, size, sampling, |renderer| {
+        let output = Output { tone, ..Output::SRGB };
+        let pixels = renderer.pixels(0..size.0, 0..size.1, &output).map(|(.., pixel)| pixel);
+        (pixels.collect(), *renderer.tally())
+    })
+}
+
 fn rays<A: Shots>(name: &str, size: (u16, u16), sampling: Sampling) -> (Vec<[u8; 3]>, Counts) {
-    let (pixels, counts) = picture(view::<A>(name), size, sampling);
-    (shown::<A>(&pixels), counts)
+    toned::<A>(name, size, sampling, Tone::SRGB)
+}
+
+fn toned<A: Shots>(
+    name: &str,
+    size: (u16, u16),
+    sampling: Sampling,
+    tone: Tone,
+) -> (Vec<[u8; 3]>, Counts) {
+    let (pixels, counts) = pixels::<A, Rgb888>(view::<A>(name), size, sampling, tone);
+    (pixels.into_iter().map(|Rgb888(rgb)| rgb).collect(), counts)
+}
+
+/// Display values as they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Values([u16; 3]);
+
+impl Pixel for Values {
+    const BYTES: usize = 3;
+
+    fn quantize(rgb: [u16; 3], _: u16) -> Self {
+        Self(rgb)
+    }
+
+    fn to_be_bytes(self) -> [u8; 3] {
+        self.0.map(|value| (value >> 8) as u8)
+    }
 }
 
 /// Every sampling against 24×24 rays a pixel; the table in `docs/sampling.md`.
@@ -104,22 +145,24 @@ fn adaptive_sampling_is_nearly_64_rays_for_a_third_of_them() {
 fn sparse_sampling_is_nearly_all_rays_for_a_third_of_them() {
     // The showcase's floor is a pattern up to the horizon, where there is nothing to interpolate: a large
     // picture has a smaller part of it.
-    for (name, size, enough, most_rays) in [
-        ("showcase", (480, 320), 40.0, 0.35),
-        ("showcase", (1200, 800), 41.5, 0.24),
-        ("limit", (240, 240), 41.0, 0.32),
+    for (name, size, tone, enough, most_rays) in [
+        ("showcase", (480, 320), Tone::SRGB, 40.0, 0.35),
+        ("showcase", (1200, 800), Tone::SRGB, 41.5, 0.24),
+        ("limit", (240, 240), Tone::SRGB, 41.0, 0.32),
+        // As the boards draw it.
+        ("limit", (240, 240), Tone::LINEAR, 40.0, 0.25),
     ] {
-        let (all, most) = rays::<f32>(name, size, Sampling::Center);
+        let (all, most) = toned::<f32>(name, size, Sampling::Center, tone);
         let mut last = 0.0;
         for side in [8, 4, 2] {
             let Sampling::Sparse { threshold, .. } = Sampling::SPARSE else { unreachable!() };
             let sampling = Sampling::Sparse { side, threshold };
-            let (some, fewer) = rays::<f32>(name, size, sampling);
+            let (some, fewer) = toned::<f32>(name, size, sampling, tone);
             let primary = fewer.primary as f64 / most.primary as f64;
             let part = fewer.rays() as f64 / most.rays() as f64;
             let some = decibels(&some, &all);
             println!(
-                "{name} {size:?} {sampling:?}: {some:.1} dB, {primary:.3} of the camera's rays, {part:.3} of all"
+                "{name} {size:?} {tone:?} {sampling:?}: {some:.1} dB, {primary:.3} of the camera's rays, {part:.3} of all"
             );
             if sampling == Sampling::SPARSE {
                 assert!(some >= enough, "{name}: {some} dB");
@@ -138,10 +181,16 @@ fn any_part_of_a_sparse_picture_is_the_same() {
         let size = (83, 50);
         for (side, threshold) in [(2, 9), (4, 19), (8, 5), (16, 3)] {
             let sampling = Sampling::Sparse { side, threshold };
-            let (whole, _) = picture(view::<A>("every"), size, sampling);
-            let bits =
-                |radiance: &Rgb<A::Radiance>| radiance.map(|r| Into::<f64>::into(r).to_bits());
-            with(view::<A>("every"), size, sampling, |renderer| {
+            let view = view::<A>("every");
+            let (whole, _) = pixels::<A, Values>(view, size, sampling, Tone::SRGB);
+            let (center, _) = pixels::<A, Values>(view, size, Sampling::Center, Tone::SRGB);
+            for y in (0..size.1).step_by(side.into()) {
+                for x in (0..size.0).step_by(side.into()) {
+                    let pixel = usize::from(y) * usize::from(size.0) + usize::from(x);
+                    assert_eq!(whole[pixel], center[pixel], "{side}: {x}, {y}");
+                }
+            }
+            with(view, size, sampling, |renderer| {
                 for (columns, rows) in [
                     (41..42, 33..34),
                     (0..7, 20..50),
@@ -153,10 +202,15 @@ fn any_part_of_a_sparse_picture_is_the_same() {
                     (31..32, 0..50),
                     (4..80, 48..50),
                 ] {
-                    for (x, y, radiance) in renderer.scan(columns, rows) {
-                        let expected =
-                            &whole[usize::from(y) * usize::from(size.0) + usize::from(x)];
-                        assert_eq!(bits(&radiance), bits(expected), "{side}: {x}, {y}");
+                    // Another tone in between leaves nothing behind.
+                    let linear = Output { tone: Tone::LINEAR, ..Output::SRGB };
+                    renderer
+                        .pixels::<Values>(columns.clone(), rows.clone(), &linear)
+                        .take(99)
+                        .count();
+                    for (x, y, pixel) in renderer.pixels::<Values>(columns, rows, &Output::SRGB) {
+                        let expected = whole[usize::from(y) * usize::from(size.0) + usize::from(x)];
+                        assert_eq!(pixel, expected, "{side}: {x}, {y}");
                     }
                 }
             });
@@ -179,9 +233,10 @@ fn where_nothing_differs_few_rays_go() {
             (Sampling::Sparse { side: 4, threshold: 0 }, 11 * 9),
             (Sampling::Sparse { side: 16, threshold: 0 }, 4 * 3),
         ] {
-            let (pixels, counts) = picture((&scene, &A::camera(), 5), (40, 30), sampling);
+            let (pixels, counts) =
+                pixels::<A, Rgb888>((&scene, &A::camera(), 5), (40, 30), sampling, Tone::SRGB);
             assert_eq!(counts.primary, expected, "{sampling:?} {}", A::NAME);
-            assert!(shown::<A>(&pixels).iter().all(|rgb| *rgb == [188; 3]), "{sampling:?}");
+            assert!(pixels.iter().all(|rgb| rgb.0 == [188; 3]), "{sampling:?}");
         }
     }
     test::<Fixed>();
@@ -259,8 +314,8 @@ fn screens<A: Shots>(
         let mut screens = Vec::new();
         for budget in budgets {
             let out = |counts: &Counts| counts.rays() >= budget;
-            let progress = renderer.refine(&mut passes, out, |block| {
-                let Rgb888(color) = Output::SRGB.pixel::<A, _>(&block.radiance, 0, 0);
+            let progress = renderer.refine(&mut passes, &Output::SRGB, out, |block| {
+                let Rgb888(color) = block.pixel;
                 for y in block.y..block.y + block.height {
                     let start = usize::from(y) * width + usize::from(block.x);
                     screen[start..][..usize::from(block.width)].fill(color);
@@ -320,8 +375,8 @@ fn each_pass_is_better_than_the_one_before() {
                     blocks += 1;
                     blocks > 1
                 };
-                let progress = renderer.refine(&mut passes, &mut last, |block| {
-                    let Rgb888(color) = Output::SRGB.pixel::<f32, _>(&block.radiance, 0, 0);
+                let progress = renderer.refine(&mut passes, &Output::SRGB, &mut last, |block| {
+                    let Rgb888(color) = block.pixel;
                     for y in block.y..block.y + block.height {
                         let start = usize::from(y) * usize::from(size.0) + usize::from(block.x);
                         screen[start..][..usize::from(block.width)].fill(color);
@@ -378,10 +433,10 @@ fn what_samplings_remember_is_stated() {
         (Sampling::Jittered { side: 8, seed: 0 }, 0),
         (Sampling::Corners, 3872),
         (Sampling::ADAPTIVE, 4288),
-        (Sampling::Sparse { side: 2, threshold: 0 }, 7744),
-        (Sampling::Sparse { side: 4, threshold: 0 }, 8720),
-        (Sampling::Sparse { side: 8, threshold: 0 }, 12112),
-        (Sampling::Sparse { side: 16, threshold: 0 }, 19616),
+        (Sampling::Sparse { side: 2, threshold: 0 }, 7728),
+        (Sampling::Sparse { side: 4, threshold: 0 }, 8464),
+        (Sampling::Sparse { side: 8, threshold: 0 }, 11008),
+        (Sampling::Sparse { side: 16, threshold: 0 }, 16640),
     ] {
         assert_eq!(sampling.samples(240) * size_of::<Sample<Fixed>>(), bytes, "{sampling:?}");
     }

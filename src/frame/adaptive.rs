@@ -151,7 +151,7 @@ where
         let mut sum = [A::BLACK; 3];
         for cell in 0..16 {
             let radiance = if coarse >> cell & 1 == 0 {
-                self.remembered(cells + cell).radiance
+                self.remembered(cells + cell).radiance()
             } else {
                 let place = |i: usize| (i as u8) << 6 | 16;
                 self.four(x, y, (place(cell & 3), place(cell >> 2)), 32)

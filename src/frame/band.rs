@@ -21,15 +21,30 @@ where
         let fit = bytes.len().checked_div(line).unwrap_or(0);
         let left = height.saturating_sub(y);
         let rows = if fit < usize::from(left) { fit as u16 } else { left };
+        // As in `line`.
         let mut sparse = self.sparse.take();
+        let tone = &output.tone;
+        let put = |(x, y): (u16, u16), values: [u16; 3], bytes: &mut [u8]| {
+            let pixel: P = output.shown(values, x, y);
+            bytes.iter_mut().zip(pixel.to_be_bytes()).for_each(|(place, byte)| *place = byte);
+        };
         for (y, line) in (y..).zip(bytes.chunks_exact_mut(line.max(1)).take(usize::from(rows))) {
             let row = self.row(y);
+            let mut ready = false;
             for (x, bytes) in (0..width).zip(line.chunks_exact_mut(P::BYTES)) {
-                let radiance =
-                    self.shown::<{ call_site::BAND }>(&mut sparse, &row, x, y, (0, width));
-                let pixel: P = output.pixel::<A, P>(&radiance, x, y);
-                for (place, byte) in bytes.iter_mut().zip(pixel.to_be_bytes()) {
-                    *place = byte;
+                let columns = (0, width);
+                let traced =
+                    self.traced::<{ call_site::BAND }>(&mut sparse, &row, x, y, columns, tone);
+                let Some(values) = traced else {
+                    ready = true;
+                    break;
+                };
+                put((x, y), values, bytes);
+            }
+            if ready {
+                let places = line.chunks_exact_mut(P::BYTES);
+                for ((x, bytes), values) in (0..width).zip(places).zip(self.ready()) {
+                    put((x, y), values, bytes);
                 }
             }
         }

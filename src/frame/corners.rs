@@ -14,8 +14,8 @@ use crate::trace::call_site;
 #[inline(always)]
 pub(super) fn sum<A: Arithmetic>(four: &[Sample<A>; 4]) -> Rgb<A::Radiance> {
     let [a, b, c, d] = four;
-    let top = rgb(&a.radiance, &b.radiance, A::gather);
-    let bottom = rgb(&c.radiance, &d.radiance, A::gather);
+    let top = rgb(&a.radiance(), &b.radiance(), A::gather);
+    let bottom = rgb(&c.radiance(), &d.radiance(), A::gather);
     rgb(&top, &bottom, A::gather)
 }
 

@@ -15,17 +15,20 @@ mod pixel;
 mod renderer;
 mod sample;
 mod sampling;
+mod scan;
 mod sparse;
 mod tone;
 
 pub use error::FrameError;
 pub use passes::{Block, Passes, Progress};
 pub use pixel::{Dither, Gray1, Gray4, Gray8, Pixel, Rgb565, Rgb888};
-pub use renderer::{Renderer, Scan};
+pub use renderer::Renderer;
 pub use sample::Sample;
 pub use sampling::Sampling;
+pub use scan::{Pixels, Scan};
 pub use tone::{Tone, Transfer};
 
+use crate::math::{Arithmetic, Rgb};
 use crate::trace::Terms;
 
 /// What a frame is to be.
@@ -67,14 +70,13 @@ impl Output {
 
     /// The pixel that shows a radiance at (x, y).
     #[inline(always)]
-    pub fn pixel<A: crate::math::Arithmetic, P: Pixel>(
-        &self,
-        radiance: &crate::math::Rgb<A::Radiance>,
-        x: u16,
-        y: u16,
-    ) -> P {
-        let value = |r: A::Radiance| self.tone.value(A::to_q16(r));
-        let rgb = [value(radiance[0]), value(radiance[1]), value(radiance[2])];
-        P::quantize(rgb, self.dither.threshold(x, y))
+    pub fn pixel<A: Arithmetic, P: Pixel>(&self, radiance: &Rgb<A::Radiance>, x: u16, y: u16) -> P {
+        self.shown(self.tone.values::<A>(radiance), x, y)
+    }
+
+    /// The pixel of display values at (x, y).
+    #[inline(always)]
+    fn shown<P: Pixel>(&self, values: [u16; 3], x: u16, y: u16) -> P {
+        P::quantize(values, self.dither.threshold(x, y))
     }
 }

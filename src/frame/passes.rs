@@ -9,8 +9,8 @@
 //!
 //! The pixels live on the display alone. What is remembered is where the render stands.
 
-use super::{FrameError, Renderer, Sampling, Settings};
-use crate::math::{Arithmetic, Rgb};
+use super::{FrameError, Output, Pixel, Renderer, Sampling, Settings};
+use crate::math::Arithmetic;
 use crate::scene::{Scene, SceneRef};
 use crate::tally::Tally;
 use crate::trace::call_site;
@@ -19,7 +19,7 @@ use core::ops::Range;
 
 /// Some pixels of one colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Block<A: Arithmetic> {
+pub struct Block<P> {
     /// The first column.
     pub x: u16,
     /// The first row.
@@ -29,7 +29,7 @@ pub struct Block<A: Arithmetic> {
     /// Pixels down, at least 1.
     pub height: u16,
     /// What all of them show.
-    pub radiance: Rgb<A::Radiance>,
+    pub pixel: P,
 }
 
 /// Where a render from coarse to fine stands: the pass and the place in it, eight bytes.
@@ -91,14 +91,15 @@ where
     /// Pixels with coordinates that are multiples of a pass's side are final once the pass is done,
     /// and no later block paints over them; what the last pass leaves is the picture of
     /// [`line`](Self::line) to the bit.
-    pub fn refine(
+    pub fn refine<P: Pixel>(
         &mut self,
         passes: &mut Passes,
+        output: &Output,
         deadline: impl FnMut(&T) -> bool,
-        mut paint: impl FnMut(&Block<A>),
+        mut paint: impl FnMut(&Block<P>),
     ) -> Progress {
         let Settings { width, height, .. } = self.settings;
-        let painted = self.refine_area(passes, 0..width, 0..height, deadline, |block| {
+        let painted = self.refine_area(passes, output, (0..width, 0..height), deadline, |block| {
             paint(block);
             Ok::<(), Infallible>(())
         });
@@ -110,13 +111,13 @@ where
 
     /// The same of an area within the picture, which is the same each time; after an error the block
     /// that couldn't be painted comes again.
-    pub(crate) fn refine_area<E>(
+    pub(crate) fn refine_area<P: Pixel, E>(
         &mut self,
         passes: &mut Passes,
-        columns: Range<u16>,
-        rows: Range<u16>,
+        output: &Output,
+        (columns, rows): (Range<u16>, Range<u16>),
         mut deadline: impl FnMut(&T) -> bool,
-        mut paint: impl FnMut(&Block<A>) -> Result<(), E>,
+        mut paint: impl FnMut(&Block<P>) -> Result<(), E>,
     ) -> Result<Progress, E> {
         if columns.is_empty() || rows.is_empty() {
             passes.done = true;
@@ -134,15 +135,29 @@ where
                 if deadline(&self.tally) {
                     return Ok(Progress::Interrupted);
                 }
-                let radiance = if passes.side == 0 {
-                    self.sampled(x, y, (begin, columns.end))
+                let row = self.view.row(y, 128);
+                let values = if passes.side == 0 {
+                    let mut sparse = self.sparse.take();
+                    let columns = (begin, columns.end);
+                    let values = self.values::<{ call_site::ANY }>(
+                        &mut sparse,
+                        &row,
+                        x,
+                        y,
+                        columns,
+                        &output.tone,
+                    );
+                    self.sparse = sparse;
+                    values
                 } else {
-                    self.trace::<{ call_site::PASS }>(&self.view.row(y, 128), x, 128)
+                    let radiance = self.trace::<{ call_site::PASS }>(&row, x, 128);
+                    output.tone.values::<A>(&radiance)
                 };
                 let (left, top) = (x.max(columns.start), y.max(rows.start));
                 let (right, bottom) = ((x + side).min(columns.end), (y + side).min(rows.end));
                 let (width, height) = (right - left, bottom - top);
-                paint(&Block { x: left, y: top, width, height, radiance })?;
+                let pixel = output.shown(values, left, top);
+                paint(&Block { x: left, y: top, width, height, pixel })?;
             }
             passes.x += side;
             if passes.x >= columns.end {

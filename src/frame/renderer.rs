@@ -1,15 +1,14 @@
 //! The renderer: rows of radiance, in any order, in the caller's memory.
 
 use super::sample::Watch;
-use super::sparse::{Answer, Sparse};
-use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, jitter};
+use super::sparse::{FEW_RAYS, Sparse};
+use super::{FrameError, Output, Pixel, Sample, Sampling, Settings, Tone, jitter};
 use crate::math::{Arithmetic, Rgb, rgb};
 use crate::scene::uses::{self, has};
 use crate::scene::{Camera, Row, Scene, SceneRef, View};
 use crate::shape::Ray;
 use crate::tally::Tally;
 use crate::trace::{Terms, Tracer, Work, call_site};
-use core::ops::Range;
 
 /// The larger side of a picture at most.
 const MAX_SIDE: u16 = 16_384;
@@ -34,7 +33,7 @@ pub struct Renderer<'a, A: Arithmetic, const MAX_DEPTH: usize, T = (), S = &'a S
     /// What the sampling remembers, if it does.
     samples: &'a mut [Sample<A>],
     pub(super) remembered: Option<Remembered>,
-    pub(super) sparse: Sparse<A>,
+    pub(super) sparse: Sparse,
     /// Of adaptive sampling: whether the pixel's corners differ, from the pixel to the right (bit 0) to
     /// the one to the left (bit 2).
     pub(super) flags: u8,
@@ -128,28 +127,13 @@ where
         &mut self.tally
     }
 
-    /// Traces the pixels of an area, row by row, as they are taken; what of it lies outside the
-    /// picture is left out.
-    #[inline(always)]
-    pub fn scan(
-        &mut self,
-        columns: Range<u16>,
-        rows: Range<u16>,
-    ) -> Scan<'_, 'a, A, MAX_DEPTH, T, S> {
-        let columns = columns.start..columns.end.min(self.settings.width);
-        let rows = rows.start..rows.end.min(self.settings.height);
-        let row = self.view.row(rows.start, 128);
-        // As if the row above had just ended: the first `next` begins a row.
-        let x = columns.end;
-        let sparse = self.sparse.take();
-        Scan { renderer: self, sparse, columns, rows, x, row, begun: false }
-    }
-
     /// The rays through the centres of the row of pixels at y, many of which follow.
     #[inline(always)]
     pub(super) fn row(&self, y: u16) -> Row<A> {
         let mut row = self.view.row(y, 128);
-        row.clear = self.tracer.is_clear(self.view, row, self.settings.width);
+        // By sparse sampling few follow.
+        let many = !matches!(self.settings.sampling, Sampling::Sparse { .. });
+        row.clear = many && self.tracer.is_clear(self.view, row, self.settings.width);
         row
     }
 
@@ -164,84 +148,135 @@ where
         // In a place of its own: the renderer itself isn't lent to what is out of line, so that the
         // compiler knows which scene the tracer is given.
         let mut sparse = self.sparse.take();
-        for (x, pixel) in (0..width).zip(pixels) {
-            let radiance = self.shown::<{ call_site::LINE }>(&mut sparse, &row, x, y, (0, width));
-            *pixel = output.pixel::<A, P>(&radiance, x, y);
+        let tone = &output.tone;
+        let mut ready = false;
+        for (x, pixel) in (0..width).zip(pixels.iter_mut()) {
+            let columns = (0, width);
+            let traced = self.traced::<{ call_site::LINE }>(&mut sparse, &row, x, y, columns, tone);
+            let Some(values) = traced else {
+                ready = true;
+                break;
+            };
+            *pixel = output.shown(values, x, y);
+        }
+        if ready {
+            for ((x, pixel), values) in (0..width).zip(pixels).zip(self.ready()) {
+                *pixel = output.shown(values, x, y);
+            }
         }
         self.sparse = sparse;
     }
 
-    /// The pixel at (x, y), by whatever sampling: see [`sampled`](Self::sampled).
+    /// The display values of the row of pixels that sparse sampling has made ready.
     #[inline(always)]
-    pub(super) fn shown<const SITE: u8>(
+    pub(super) fn ready(&self) -> impl Iterator<Item = [u16; 3]> {
+        Sparse::pixels_of(Sample::words(self.samples))
+    }
+
+    /// The display values of the pixel at (x, y), by whatever sampling; `columns` as of
+    /// [`sampled`](Self::sampled).
+    #[inline(always)]
+    pub(super) fn values<const SITE: u8>(
         &mut self,
-        sparse: &mut Sparse<A>,
+        sparse: &mut Sparse,
+        row: &Row<A>,
+        x: u16,
+        y: u16,
+        columns: (u16, u16),
+        tone: &Tone,
+    ) -> [u16; 3] {
+        let is_sparse = matches!(self.settings.sampling, Sampling::Sparse { .. });
+        let traced = if has(USES, uses::SPARSE) && is_sparse && x != columns.0 {
+            None
+        } else {
+            self.traced::<SITE>(sparse, row, x, y, columns, tone)
+        };
+        traced.unwrap_or_else(|| Sparse::pixel(x, Sample::words(self.samples)))
+    }
+
+    /// The same by any sampling but the sparse; by sparse sampling, makes the row of pixels ready and says
+    /// nothing.
+    #[inline(always)]
+    pub(super) fn traced<const SITE: u8>(
+        &mut self,
+        sparse: &mut Sparse,
+        row: &Row<A>,
+        x: u16,
+        y: u16,
+        columns: (u16, u16),
+        tone: &Tone,
+    ) -> Option<[u16; 3]> {
+        let sampling = self.settings.sampling;
+        if has(USES, uses::SPARSE) && matches!(sampling, Sampling::Center | Sampling::Sparse { .. })
+        {
+            self.sparse::<SITE>(sparse, row, x, y, columns, tone)
+        } else {
+            Some(tone.values::<A>(&self.seen::<SITE>(row, x, y, columns)))
+        }
+    }
+
+    /// The radiance of the pixel at (x, y), by any sampling but the sparse.
+    #[inline(always)]
+    pub(super) fn seen<const SITE: u8>(
+        &mut self,
         row: &Row<A>,
         x: u16,
         y: u16,
         columns: (u16, u16),
     ) -> Rgb<A::Radiance> {
-        let sampling = self.settings.sampling;
-        let center = !has(USES, uses::SPARSE) && sampling == Sampling::Center;
-        if !uses::has_samplings(USES) || center {
+        let center = matches!(self.settings.sampling, Sampling::Center | Sampling::Sparse { .. });
+        if !uses::has_samplings(USES & !uses::SPARSE) || center {
             self.trace::<SITE>(row, x, 128)
-        } else if has(USES, uses::SPARSE)
-            && matches!(sampling, Sampling::Center | Sampling::Sparse { .. })
-        {
-            self.sparse::<SITE>(sparse, row, x, y, columns)
         } else {
             self.sampled(x, y, columns)
         }
     }
 
-    /// The pixel at (x, y) by sparse sampling, or by a ray through its centre: the tracer stands here
-    /// once for both, and for whatever ray is missing.
+    /// Traces the rays that sparse sampling wants for a row of pixels; or one through the pixel's centre: the
+    /// tracer stands here once for both.
     #[inline(always)]
     fn sparse<const SITE: u8>(
         &mut self,
-        sparse: &mut Sparse<A>,
+        sparse: &mut Sparse,
         row: &Row<A>,
         x: u16,
         y: u16,
         columns: (u16, u16),
-    ) -> Rgb<A::Radiance> {
+        tone: &Tone,
+    ) -> Option<[u16; 3]> {
         let every = self.settings.sampling == Sampling::Center;
-        if !every && let Some(radiance) = sparse.goes_on(x, columns) {
-            return radiance;
-        }
+        let mut row = *row;
         loop {
-            let (mut other, mut at) = (*row, x);
-            let mut last = true;
+            let (mut at_x, mut at_y) = (x, y);
             if !every {
-                match sparse.ask(x, y, columns, self.samples) {
-                    Answer::Pixel(radiance) => return radiance,
-                    Answer::Traced => {}
-                    Answer::Sample(x, sample_y) => {
-                        at = x;
-                        last = false;
-                        if sample_y != y {
-                            other = self.view.row(sample_y, 128);
-                        }
-                    }
-                }
+                (at_x, at_y) = sparse.next(y, columns, tone, Sample::words_mut(self.samples))?;
             }
-            let ray = self.view.ray(&other, at, 128);
-            self.prepare(&other, at, 128);
+            if row.number() != u32::from(at_y) {
+                row = self.view.row(at_y, 128);
+            }
+            let ray = self.view.ray(&row, at_x, 128);
+            self.prepare(&row, at_x, 128);
             let mut nothing = T::NOTHING;
-            let mut watch = Watch::new(nothing.as_mut().unwrap_or(&mut self.tally));
-            let radiance = if uses::has_samplings(USES & !uses::SPARSE) {
-                self.tracer.seen::<{ call_site::ANY }, _, _>(
-                    (ray, other.clear),
+            let tally = nothing.as_mut().unwrap_or(&mut self.tally);
+            let (radiance, rays) = if uses::has_samplings(USES & !uses::SPARSE) {
+                // As in `trace`.
+                let mut watch = Watch::<T>::new(tally);
+                let seen = self.tracer.seen::<{ call_site::ANY }, _, _>(
+                    (ray, row.clear),
                     self.work,
                     &mut watch,
-                )
+                );
+                (seen, watch.rays())
             } else {
-                self.tracer.seen::<SITE, _, _>((ray, other.clear), self.work, &mut watch)
+                let mut watch = Watch::<T, false>::new(tally);
+                let seen = self.tracer.seen::<SITE, _, _>((ray, row.clear), self.work, &mut watch);
+                (seen, watch.rays())
             };
-            if last {
-                return radiance;
+            let values = tone.values::<A>(&radiance);
+            if every {
+                return Some(values);
             }
-            sparse.tell(watch.sample(radiance), self.samples);
+            sparse.tell(values, rays > FEW_RAYS, Sample::words_mut(self.samples));
         }
     }
 
@@ -255,8 +290,8 @@ where
     pub fn radiance(&mut self, ray: &Ray<A>) -> Rgb<A::Radiance> {
         // The tracer is compiled once: for samplings that compare what rays hit, if there may be
         // any.
-        if uses::has_signatures(USES) {
-            self.tracer.radiance(*ray, self.work, &mut Watch::new(&mut self.tally))
+        if has(USES, uses::ADAPTIVE) {
+            self.tracer.radiance(*ray, self.work, &mut Watch::<T>::new(&mut self.tally))
         } else {
             self.tracer.radiance(*ray, self.work, &mut self.tally)
         }
@@ -273,9 +308,9 @@ where
     ) -> Rgb<A::Radiance> {
         let ray = self.view.ray(row, x, fraction);
         self.prepare(row, x, fraction);
-        if uses::has_signatures(USES) {
+        if has(USES, uses::ADAPTIVE) {
             // As in `radiance`.
-            let mut watch = Watch::new(&mut self.tally);
+            let mut watch = Watch::<T>::new(&mut self.tally);
             self.tracer.seen::<{ call_site::ANY }, _, _>((ray, row.clear), self.work, &mut watch)
         } else if uses::has_samplings(USES) {
             self.tracer.seen::<{ call_site::ANY }, _, _>(
@@ -313,7 +348,7 @@ where
         let row = self.view.row(y, down);
         let ray = self.view.ray(&row, x, right);
         self.prepare(&row, x, right);
-        let mut watch = Watch::new(&mut self.tally);
+        let mut watch = Watch::<T>::new(&mut self.tally);
         let radiance =
             self.tracer.seen::<{ call_site::ANY }, _, _>((ray, row.clear), self.work, &mut watch);
         watch.sample(radiance)
@@ -346,13 +381,6 @@ where
             Sampling::Adaptive { depth, threshold } if has(USES, uses::ADAPTIVE) => {
                 self.adaptive(x, y, columns, depth, threshold)
             }
-            Sampling::Sparse { .. } if has(USES, uses::SPARSE) => {
-                let mut sparse = self.sparse.take();
-                let row = self.view.row(y, 128);
-                let radiance = self.sparse::<{ call_site::ANY }>(&mut sparse, &row, x, y, columns);
-                self.sparse = sparse;
-                radiance
-            }
             // The renderer isn't made for a sampling that the scene isn't tailored to.
             _ => self.trace::<{ call_site::ANY }>(&self.view.row(y, 128), x, 128),
         }
@@ -374,65 +402,5 @@ where
             }
         }
         sum.map(|sum| A::mean(sum, u16::from(side) * u16::from(side)))
-    }
-}
-
-/// The pixels of an area, traced as they are taken: column, row, radiance.
-#[derive(Debug)]
-pub struct Scan<'r, 'a, A: Arithmetic, const MAX_DEPTH: usize, T, S> {
-    renderer: &'r mut Renderer<'a, A, MAX_DEPTH, T, S>,
-    sparse: Sparse<A>,
-    columns: Range<u16>,
-    /// The current row and the end.
-    rows: Range<u16>,
-    x: u16,
-    row: Row<A>,
-    begun: bool,
-}
-
-impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Scan<'_, '_, A, MAX_DEPTH, T, S>
-where
-    A: Arithmetic,
-    T: Tally,
-    S: SceneRef<Target = Scene<'s, A, USES>>,
-{
-    /// Goes to the start of the next row; `false` below the last.
-    #[inline(always)]
-    fn next_row(&mut self) -> bool {
-        if self.begun {
-            self.rows.start += 1;
-        }
-        self.begun = true;
-        if self.rows.is_empty() || self.columns.is_empty() {
-            // Of a scan that is dropped before, the sampler forgets where it stood.
-            self.renderer.sparse = self.sparse.take();
-            return false;
-        }
-        self.x = self.columns.start;
-        self.row = self.renderer.row(self.rows.start);
-        true
-    }
-}
-
-impl<'s, A, const MAX_DEPTH: usize, T, S, const USES: u64> Iterator
-    for Scan<'_, '_, A, MAX_DEPTH, T, S>
-where
-    A: Arithmetic,
-    T: Tally,
-    S: SceneRef<Target = Scene<'s, A, USES>>,
-{
-    type Item = (u16, u16, Rgb<A::Radiance>);
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.x >= self.columns.end && !self.next_row() {
-            return None;
-        }
-        let (x, y) = (self.x, self.rows.start);
-        self.x += 1;
-        let columns = (self.columns.start, self.columns.end);
-        let radiance =
-            self.renderer.shown::<{ call_site::SCAN }>(&mut self.sparse, &self.row, x, y, columns);
-        Some((x, y, radiance))
     }
 }

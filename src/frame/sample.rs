@@ -4,116 +4,89 @@
 //! met different objects, or the same with other lights in shadow. Object and shadows are kept as
 //! a signature, made by a tally that stands before the user's, so that the tracer knows nothing of it.
 //!
-//! Colours and signature share a word. Adaptive sampling compares seven bits of the signature. Sparse
-//! sampling has to know whether many rays followed, and marks samples at corners: that leaves it six.
+//! Sparse sampling uses the same memory, as words.
 
 use super::{Output, Rgb888};
 use crate::math::{Arithmetic, Rgb};
 use crate::shape::Ray;
 use crate::tally::{RayKind, Tally, Term};
+use bytemuck::TransparentWrapper;
 
-/// What a sampler remembers of a ray: 16 bytes, 32 in `f64`.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample<A: Arithmetic> {
-    pub(super) radiance: Rgb<A::Radiance>,
-    srgb: [u8; 3],
-    /// The signature and the bit for many rays. Where sparse sampling has been told of it, six bits are
-    /// left, 0 where no ray has been sent, and the seventh is its mark.
-    signature: u8,
+/// Memory for what a sampler remembers: 16 bytes, 32 in `f64`.
+// Three radiances, and in the place of a fourth the colours on 8-bit sRGB and the signature.
+#[derive(Clone, Copy, Debug, TransparentWrapper)]
+#[repr(transparent)]
+pub struct Sample<A: Arithmetic>([A::Radiance; 4]);
+
+/// The signature's bits. The sixth is left out, so that the word is a number as floats have it, too.
+const SIGNATURE: u8 = 0xbf;
+
+/// A word as it lies in the place of a radiance, and back.
+#[inline(always)]
+fn put_word<A: Arithmetic>(word: u32) -> A::Radiance {
+    if size_of::<A::Radiance>() == 4 {
+        bytemuck::try_cast(word).unwrap_or(A::BLACK)
+    } else {
+        bytemuck::try_cast([word, 0]).unwrap_or(A::BLACK)
+    }
 }
 
-/// The seventh bit of the signature, or the mark.
-const MARK: u8 = 0x80;
-/// The bit that says that the pixel took many rays.
-const COSTLY: u8 = 0x40;
-/// The signature's other bits.
-const SIGNATURE: u8 = 0x3f;
-/// More rays than these, of all kinds, are many.
-const FEW_RAYS: u32 = 5;
+#[inline(always)]
+fn word<A: Arithmetic>(radiance: A::Radiance) -> u32 {
+    if size_of::<A::Radiance>() == 4 {
+        bytemuck::try_cast(radiance).unwrap_or(0)
+    } else {
+        let [word, _] = bytemuck::try_cast(radiance).unwrap_or([0u32; 2]);
+        word
+    }
+}
 
 impl<A: Arithmetic> Sample<A> {
     /// No ray yet: what memory for samples is filled with.
-    pub const NONE: Self = Self { radiance: [A::BLACK; 3], srgb: [0; 3], signature: 0 };
+    pub const NONE: Self = Self([A::BLACK; 4]);
 
     /// What a ray found.
     #[inline(always)]
     pub(super) fn new(radiance: Rgb<A::Radiance>, signature: u8) -> Self {
-        let Rgb888(srgb) = Output::SRGB.pixel::<A, Rgb888>(&radiance, 0, 0);
-        Self { radiance, srgb, signature }
+        let Rgb888([r, g, b]) = Output::SRGB.pixel::<A, Rgb888>(&radiance, 0, 0);
+        Self::with_word(radiance, u32::from_le_bytes([r, g, b, signature]))
     }
 
-    /// The same as sparse sampling remembers it: known, and not marked yet.
     #[inline(always)]
-    pub(super) fn known(self) -> Self {
-        let one = u8::from(self.signature & SIGNATURE == 0);
-        Self { signature: self.signature & !MARK | one, ..self }
+    fn with_word([r, g, b]: Rgb<A::Radiance>, word: u32) -> Self {
+        Self([r, g, b, put_word::<A>(word)])
     }
 
     /// A radiance that nothing will be compared with.
     #[inline(always)]
     pub(super) fn plain(radiance: Rgb<A::Radiance>) -> Self {
-        Self { radiance, srgb: [0; 3], signature: 1 }
+        Self::with_word(radiance, 0)
     }
 
-    /// Whether a ray has been sent.
+    /// What came back along the ray.
     #[inline(always)]
-    pub(super) fn is_known(&self) -> bool {
-        self.signature & SIGNATURE != 0
+    pub(super) fn radiance(&self) -> Rgb<A::Radiance> {
+        let [r, g, b, _] = self.0;
+        [r, g, b]
     }
 
-    /// Whether a sampler has marked it.
+    /// The same on 8-bit sRGB, and the signature.
     #[inline(always)]
-    pub(super) fn is_marked(&self) -> bool {
-        self.signature & MARK != 0
+    fn seen(&self) -> ([u8; 3], u8) {
+        let [r, g, b, signature] = word::<A>(self.0[3]).to_le_bytes();
+        ([r, g, b], signature)
     }
 
-    /// What lies in the middle between two samples where no ray has been sent.
+    /// The memory as words, as sparse sampling uses it.
     #[inline(always)]
-    pub(super) fn between(
-        &self,
-        other: &Self,
-        mean: impl Fn(&Rgb<A::Radiance>, &Rgb<A::Radiance>) -> Rgb<A::Radiance>,
-    ) -> Self {
-        let half = |a: u8, b: u8| (u16::from(a).wrapping_add(u16::from(b)) >> 1) as u8;
-        let ([r, g, b], [s, h, c]) = (self.srgb, other.srgb);
-        Self {
-            radiance: mean(&self.radiance, &other.radiance),
-            srgb: [half(r, s), half(g, h), half(b, c)],
-            signature: self.signature & other.signature & COSTLY,
-        }
+    pub(super) fn words(samples: &[Self]) -> &[u32] {
+        bytemuck::try_cast_slice(Self::peel_slice(samples)).unwrap_or_default()
     }
 
-    /// Whether a ray among four samples is worth sending: their colours differ by more than the
-    /// threshold, a quarter less if their rays met different things, half as much again if all took many.
-    #[inline(never)]
-    pub(super) fn is_worth_a_ray(&self, b: &Self, c: &Self, d: &Self, threshold: u8) -> bool {
-        let four = [self, b, c, d];
-        let (mut costly, mut first, mut same) = (COSTLY, 0, true);
-        for sample in four {
-            costly &= sample.signature;
-            let signature = sample.signature & SIGNATURE;
-            same &= first == 0 || signature == 0 || signature == first;
-            first = if signature == 0 { first } else { signature };
-        }
-        let limit = if costly == 0 { threshold } else { threshold.saturating_add(threshold >> 1) };
-        let limit = if same { limit } else { limit.wrapping_sub(limit >> 2) };
-        (0..3).any(|i| {
-            let [a, b, c, d] = four.map(|sample| sample.srgb[i]);
-            let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
-            high.wrapping_sub(low) > limit
-        })
-    }
-
-    /// As if no ray had been sent.
+    /// The same, to be changed.
     #[inline(always)]
-    pub(super) fn forget(&mut self) {
-        self.signature = 0;
-    }
-
-    /// The same, marked.
-    #[inline(always)]
-    pub(super) fn marked(self) -> Self {
-        Self { signature: self.signature | MARK, ..self }
+    pub(super) fn words_mut(samples: &mut [Self]) -> &mut [u32] {
+        bytemuck::try_cast_slice_mut(Self::peel_slice_mut(samples)).unwrap_or_default()
     }
 }
 
@@ -132,7 +105,7 @@ pub(super) fn differ_in_color<A: Arithmetic, const N: usize>(
     let (mut low, mut high) = ([u8::MAX; 3], [0; 3]);
     for sample in samples {
         for i in 0..3 {
-            let value = sample.srgb[i];
+            let value = sample.seen().0[i];
             low[i] = if value < low[i] { value } else { low[i] };
             high[i] = if value > high[i] { value } else { high[i] };
         }
@@ -146,19 +119,19 @@ pub(super) fn differ<A: Arithmetic, const N: usize>(
     samples: &[Sample<A>; N],
     threshold: u8,
 ) -> bool {
-    let mut signatures = samples.iter().map(|sample| sample.signature & !COSTLY);
+    let mut signatures = samples.iter().map(|sample| sample.seen().1);
     let first = signatures.next();
     signatures.any(|signature| Some(signature) != first) || differ_in_color(samples, threshold)
 }
 
-/// Makes a signature out of what the tracer reports, and hands all of it on.
-pub(super) struct Watch<'t, T> {
+/// Makes a signature out of what the tracer reports, if one is wanted, counts rays, and hands all of it on.
+pub(super) struct Watch<'t, T, const SIGNS: bool = true> {
     tally: &'t mut T,
     signature: u8,
     rays: u32,
 }
 
-impl<'t, T> Watch<'t, T> {
+impl<'t, T, const SIGNS: bool> Watch<'t, T, SIGNS> {
     #[inline(always)]
     pub(super) fn new(tally: &'t mut T) -> Self {
         Self { tally, signature: 0, rays: 0 }
@@ -167,13 +140,18 @@ impl<'t, T> Watch<'t, T> {
     /// What the sampler remembers of the rays that were reported.
     #[inline(always)]
     pub(super) fn sample<A: Arithmetic>(&self, radiance: Rgb<A::Radiance>) -> Sample<A> {
-        let costly = if self.rays > FEW_RAYS { COSTLY } else { 0 };
-        let seventh = self.signature << 1 & MARK;
-        Sample::new(radiance, self.signature & SIGNATURE | seventh | costly)
+        let seventh = self.signature << 1 & 0x80;
+        Sample::new(radiance, (self.signature & 0x3f | seventh) & SIGNATURE)
+    }
+
+    /// How many rays were reported.
+    #[inline(always)]
+    pub(super) fn rays(&self) -> u32 {
+        self.rays
     }
 }
 
-impl<T: Tally> Tally for Watch<'_, T> {
+impl<T: Tally, const SIGNS: bool> Tally for Watch<'_, T, SIGNS> {
     #[inline(always)]
     fn ray<A: Arithmetic>(&mut self, kind: RayKind, depth: u8, ray: &Ray<A>, w: &Rgb<A::Weight>) {
         self.rays = self.rays.wrapping_add(1);
@@ -182,8 +160,8 @@ impl<T: Tally> Tally for Watch<'_, T> {
 
     #[inline(always)]
     fn hit<A: Arithmetic>(&mut self, kind: RayKind, shape: u32, distance: A::Length) {
-        if kind == RayKind::Primary {
-            // An odd factor keeps shapes apart whose numbers differ by less than 128, or 64 of six bits.
+        if SIGNS && kind == RayKind::Primary {
+            // An odd factor keeps shapes apart whose numbers differ by less than 128.
             self.signature = (shape as u8).wrapping_add(1).wrapping_mul(0x9d);
         }
         self.tally.hit::<A>(kind, shape, distance);
@@ -196,7 +174,7 @@ impl<T: Tally> Tally for Watch<'_, T> {
 
     #[inline(always)]
     fn shadowed(&mut self, light: u16, depth: u8) {
-        if depth == 1 {
+        if SIGNS && depth == 1 {
             self.signature ^= (light as u8).wrapping_add(1).wrapping_mul(0x2b);
         }
         self.tally.shadowed(light, depth);
@@ -237,42 +215,45 @@ mod tests {
         }
     }
 
-    /// What is compared after these reports, by adaptive sampling and by sparse sampling.
-    fn signatures(shape: u32, shadows: &[u16], deeper: bool) -> [u8; 2] {
+    /// What is compared after these reports.
+    fn signature(shape: u32, shadows: &[u16], deeper: bool) -> u8 {
         let mut tally = ();
-        let mut watch = Watch::new(&mut tally);
+        let mut watch = Watch::<()>::new(&mut tally);
         watch.hit::<f64>(RayKind::Primary, shape, 1.0);
         watch.hit::<f64>(RayKind::Reflection, 99, 1.0);
         shadows.iter().for_each(|&light| watch.shadowed(light, 1));
         if deeper {
             watch.shadowed(0, 2);
         }
-        let sample = watch.sample::<f64>([0.5; 3]);
-        [sample.signature & !COSTLY, sample.known().signature & SIGNATURE]
+        watch.sample::<f64>([0.5; 3]).seen().1
     }
 
     #[test]
     fn signatures_tell_shapes_and_shadows_apart() {
-        // Seven bits and six: twice as many neighbours, or as many lights.
-        for (i, count) in [(0, 128), (1, 64)] {
-            let signature = |shape, shadows: &[u16]| signatures(shape, shadows, false)[i];
-            assert!((1..count).all(|shape| signature(shape, &[]) != signature(0, &[])));
-            let lights = 0..count as u16 - 1;
-            assert!(lights.clone().all(|light| signature(3, &[light]) != signature(3, &[])));
-            assert!(signature(3, &[0, 1]) != signature(3, &[0]));
-        }
-        assert_eq!(signatures(3, &[1], true), signatures(3, &[1], false));
+        let count = 128;
+        assert!((1..count).all(|shape| signature(shape, &[], false) != signature(0, &[], false)));
+        let lights = 0..count as u16 - 1;
+        assert!(
+            lights.clone().all(|light| signature(3, &[light], false) != signature(3, &[], false))
+        );
+        assert!(signature(3, &[0, 1], false) != signature(3, &[0], false));
+        assert_eq!(signature(3, &[1], true), signature(3, &[1], false));
     }
 
     #[test]
-    fn what_sparse_sampling_knows_is_no_mark() {
-        for shape in 0..256 {
-            let mut tally = ();
-            let mut watch = Watch::new(&mut tally);
-            watch.hit::<f64>(RayKind::Primary, shape, 1.0);
-            let known = watch.sample::<f64>([0.5; 3]).known();
-            assert!(known.is_known() && !known.is_marked());
-            assert!(known.marked().is_marked() && known.marked().is_known());
+    fn a_sample_is_read_as_it_was_written() {
+        fn test<A: Arithmetic>() {
+            for (rgb, signature) in [([0, 1, 2], 0), ([255; 3], SIGNATURE), ([7, 0, 128], 0x9d)] {
+                let [r, g, b] = rgb;
+                let word = u32::from_le_bytes([r, g, b, signature]);
+                let radiance = [1, 2, 3].map(A::from_q16);
+                let sample = Sample::<A>::with_word(radiance, word);
+                assert_eq!(sample.radiance(), radiance);
+                assert_eq!(sample.seen(), (rgb, signature));
+            }
         }
+        test::<crate::math::Fixed>();
+        test::<f32>();
+        test::<f64>();
     }
 }

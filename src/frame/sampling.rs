@@ -41,13 +41,14 @@ pub enum Sampling {
     /// One through the centre of every `side`-th pixel of every `side`-th row; then one in the middle of
     /// such a block, and of its sides, where the samples around it differ, and so on in its quarters down
     /// to single pixels; the others are interpolated (after Akimoto et al., "Pixel-selected ray tracing",
-    /// 1991). Remembers `side`/2 + 2 rows of W/2 + 1 samples and one of W/`side` + 1, W being rounded up to
-    /// whole blocks.
+    /// 1991). It goes by what is shown: by the output's exposure and curve. Remembers `side`/2 + 2 rows of
+    /// W/2 + 1 rays, one of W/`side` + 1, and one of W pixels, W being rounded up to whole blocks, four
+    /// pixels at least; four rays take three samples, two pixels one.
     Sparse {
         /// 2, 4, 8 or 16.
         side: u8,
-        /// Colours differ if one channel of 8-bit sRGB does by more than this; by three quarters of it
-        /// if the rays met different things, by half as much again if they cost many rays each.
+        /// Colours differ if one channel does by more than this, of 255; by half as much again if they cost
+        /// many rays each.
         threshold: u8,
     },
 }
@@ -64,8 +65,9 @@ impl Sampling {
             Self::Center | Self::Grid { .. } | Self::Jittered { .. } => 0,
             Self::Corners => width as usize + 2,
             Self::Adaptive { .. } => width as usize + 28,
+            // Four words each.
             Self::Sparse { side, .. } => {
-                stride(width, side) * (side as usize / 2 + 2) + blocks(width, side) + 1
+                (3 * slots(width, side) + 2 * row(width, side)).div_ceil(4)
             }
         }
     }
@@ -106,9 +108,22 @@ pub(super) const fn blocks(width: u16, side: u8) -> usize {
     (width as usize + side as usize).wrapping_sub(1) >> side.trailing_zeros()
 }
 
-/// How many samples a row of sparse sampling has: every other pixel's, and the end of the last
-/// block.
+/// How many pixels a row of sparse sampling has: whole blocks, and four at a time.
+#[inline(always)]
+pub(super) const fn row(width: u16, side: u8) -> usize {
+    let side = if side < 4 { 4 } else { side };
+    blocks(width, side) << side.trailing_zeros()
+}
+
+/// How many slots it has: every other pixel's, and the end of the last block.
 #[inline(always)]
 pub(super) const fn stride(width: u16, side: u8) -> usize {
-    (blocks(width, side) << side.trailing_zeros()) / 2 + 1
+    row(width, side) / 2 + 1
+}
+
+/// How many rays sparse sampling remembers: at even coordinates for a row of blocks and its lower edge,
+/// the middles of the smallest blocks of two rows of pixels, and the corners of the next row of blocks.
+#[inline(always)]
+pub(super) const fn slots(width: u16, side: u8) -> usize {
+    stride(width, side) * (side as usize / 2 + 2) + blocks(width, side) + 1
 }

@@ -6,6 +6,8 @@
 //! radiance's leading bit picks an octave, the next four a segment, and within the segment the
 //! curve is a chord. The chord is off by at most 1.3e-4, a thirtieth of an 8-bit step.
 
+use crate::math::{Arithmetic, Rgb};
+
 /// How display values follow radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Transfer {
@@ -34,6 +36,13 @@ impl Tone {
     #[must_use]
     pub const fn with_exposure(self, exposure: u16) -> Self {
         Self { exposure, ..self }
+    }
+
+    /// The display values of a radiance.
+    #[inline(always)]
+    pub(super) fn values<A: Arithmetic>(&self, radiance: &Rgb<A::Radiance>) -> [u16; 3] {
+        let value = |r: A::Radiance| self.value(A::to_q16(r));
+        [value(radiance[0]), value(radiance[1]), value(radiance[2])]
     }
 
     /// The display value of a radiance in 1/65536, as 0 to 65535.

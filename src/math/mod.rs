@@ -464,8 +464,8 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
 
     /// `base + step·(n + fraction/256)`, `fraction` in 0 to 255.
     fn aim(base: Self::Aim, step: Self::Aim, n: i32, fraction: i32) -> Self::Aim;
-    /// `a/n`; `a` for n = 0.
-    fn aim_over(a: Self::Aim, n: u32) -> Self::Aim;
+    /// `2·a/n`, the step from pixel to pixel of n; null for n = 0.
+    fn aim_step(a: Self::Aim, n: u16) -> Self::Aim;
     /// A camera's vectors forward, right and down for a picture of this size, all by one factor, so that
     /// [`sight`](Self::sight) is most exact.
     fn aims(vectors: [[Self::Aim; 3]; 3], width: u16, height: u16) -> [[Self::Aim; 3]; 3];

@@ -155,12 +155,8 @@ impl<A: Arithmetic> View<A> {
     pub fn new(camera: &Camera<A>, width: u16, height: u16) -> Self {
         let vectors = [camera.forward, camera.right, camera.down];
         let [forward, right, down] = A::aims(vectors, width, height);
-        let height = u32::from(height);
-        let step = |v: &[A::Aim; 3]| {
-            let f = |a: A::Aim| A::aim_over(A::aim(a, a, 1, 0), height);
-            [f(v[0]), f(v[1]), f(v[2])]
-        };
-        let (across, step_down) = (step(&right), step(&down));
+        let step = |v: [A::Aim; 3]| v.map(|a| A::aim_step(a, height));
+        let (across, step_down) = (step(right), step(down));
         // half the width, in pixels and 1/256 of them
         let (whole, part) = (i32::from(width) >> 1, (i32::from(width) & 1) << 7);
         let f = |i: usize| {
@@ -215,6 +211,29 @@ mod tests {
         assert!(close(at(0, 0, 0, 0), [2.0, 1.0, 1.0]));
         assert!(close(at(4, 0, 2, 0), [-2.0, -1.0, 1.0]));
         assert!(close(at(1, 128, 0, 128), [0.5, 0.5, 1.0]));
+    }
+
+    #[test]
+    fn fixed_rays_are_right_in_pictures_of_any_shape() {
+        let (eye, at, up) = ([1.0, 2.0, -3.0], [0.5, -0.2, 9.0], [0.1, 1.0, 0.0]);
+        for angle in [1.0, 20.0, 53.0, 90.0, 169.0] {
+            for (width, height) in [(1, 1), (1, 2), (3, 1), (7, 200), (400, 9), (240, 240)] {
+                let exact = Camera::<f64>::look_at(eye, at, up, angle);
+                let fixed = Camera::<Fixed>::look_at(eye, at, up, angle);
+                let (exact, fixed) =
+                    (View::new(&exact, width, height), View::new(&fixed, width, height));
+                for y in 0..=height {
+                    for x in (0..=width).step_by(usize::from(1 + width / 50)) {
+                        let a = exact.ray(&exact.row(y, 85), x, 43).direction;
+                        let b = fixed.ray(&fixed.row(y, 85), x, 43).direction;
+                        for i in 0..3 {
+                            let off = (a[i] - b[i].to_num::<f64>()).abs();
+                            assert!(off < 3.5e-5, "{angle}, {width}×{height}: {off} at {x}, {y}");
+                        }
+                    }
+                }
+            }
+        }
     }
 
     #[test]

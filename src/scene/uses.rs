@@ -166,12 +166,6 @@ pub(crate) const fn has_samplings(uses: u64) -> bool {
     uses & (CELLS | CORNERS | ADAPTIVE | SPARSE) != 0
 }
 
-/// Whether pictures may be sampled by what rays hit.
-#[inline(always)]
-pub(crate) const fn has_signatures(uses: u64) -> bool {
-    uses & (ADAPTIVE | SPARSE) != 0
-}
-
 /// The coefficients of a ray, of which the first stands for all where none are coloured.
 #[inline(always)]
 pub(crate) fn grey<A: Arithmetic, const USES: u64>(k: &Rgb<A::Weight>) -> Rgb<A::Weight> {

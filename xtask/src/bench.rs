@@ -181,7 +181,7 @@ the same on every machine.
 - Rays are all but shadow rays, the camera's among them.
 - Stack is what a frame needs below its call: the tracer's memory for five generations and a row
   of 320 pixels (960 bytes) among it.
-- A sampling stands behind its scene (`docs/sampling.md`); its stack holds 560 samples of 16 bytes.
+- A sampling stands behind its scene (`docs/sampling.md`); its stack holds 530 samples of 16 bytes.
 - Software floating point (f32 on Cortex-M0 and M3) is counted on small frames.
 - `gfxcat` is a plane and three mirrors, one bounce, one shadow ray; `spheres64` 64 spheres at random in
   an octree, one ray a pixel and no shading.

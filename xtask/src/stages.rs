@@ -107,6 +107,11 @@ impl Options {
             None => name.parse().map_err(|error: JobError| format!("{name}: {error}")),
         };
         let jobs = names.iter().map(job).collect::<Result<Vec<_>, _>>()?;
+        if matches!(target, Target::Rp2040)
+            && jobs.iter().any(|job| job.sampling != Sampling::Center)
+        {
+            return Err("the Pico's program draws one ray a pixel".into());
+        }
         if jobs.len() > 1 && (flame.is_some() || folded.is_some()) {
             return Err("a flame graph is of one scene".into());
         }

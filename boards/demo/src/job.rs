@@ -111,7 +111,7 @@ pub struct Job {
 }
 
 /// Samples that a firmware remembers at most: sparse ones for a row of 240 pixels.
-pub const MAX_SAMPLES: usize = 560;
+pub const MAX_SAMPLES: usize = 530;
 
 /// The samplings that jobs may ask for, as they are written.
 pub const SAMPLINGS: [(&str, Sampling); 5] = [

@@ -41,14 +41,18 @@ pub(crate) fn render<A: Arithmetic, T: Tally + Copy>(
         any(output.pixel::<A, frame::Rgb888>(&radiance, x, y));
     }
     any(renderer.scan(any(3)..any(1), any(7)..any(2)).next());
+    for pixel in renderer.pixels::<frame::Rgb888>(any(0)..any(9), any(0)..any(9), &output) {
+        any(pixel);
+    }
     let ray = any(renderer.ray(any(3), any(4)));
     any(renderer.radiance(&ray));
     pixels(&mut renderer, &output);
     let mut passes = any(Passes::new(any(16))).ok()?;
     any(renderer.refine(
         &mut passes,
+        &output,
         |_| any(false),
-        |block| {
+        |block: &frame::Block<frame::Gray8>| {
             any(block.x);
         },
     ));

@@ -62,9 +62,10 @@ fn draw<A: Construct>(
     let (progress, counts) = with_renderer(scene, camera, core, |renderer| {
         let progress = renderer.refine(
             &mut passes,
+            &Output::SRGB,
             |counts| counts.rays() >= rays,
             |block| {
-                let Rgb888(color) = Output::SRGB.pixel::<A, _>(&block.radiance, block.x, block.y);
+                let Rgb888(color) = block.pixel;
                 let (left, top) = (usize::from(block.x), usize::from(block.y));
                 let rows = picture.rows_mut().skip(top).take(block.height.into());
                 rows.for_each(|row| row[left..][..usize::from(block.width)].fill(color));

@@ -1,10 +1,12 @@
 //! Pictures that somebody watches: from coarse to fine, and anew whenever the camera moves.
 
-use whitted::frame::{Output, Passes, Progress, Rgb565, Rgb888};
+use std::cell::Cell;
+
+use whitted::frame::{Output, Passes, Pixel, Progress, Renderer, Rgb565, Rgb888};
 use whitted::scene::Scene;
 use whitted::tally::Counts;
 
-use super::{Settings, with_renderer};
+use super::{MAX_DEPTH, Settings, with_renderer};
 use crate::bake::{Baked, Construct};
 use crate::document;
 use crate::error::{Flaw, Problem};
@@ -92,37 +94,50 @@ fn frame<A: Construct>(
     let mut made = Counts::default();
     let lit = pools.light(baked, scene, &camera, settings.size, settings.indirect, &mut made)?;
     with_renderer(&lit, &camera, core, |renderer| {
-        let mut traced = 0;
+        let mut live = Live { renderer, passes: &mut passes, picture, traced: Cell::new(0) };
         loop {
-            let progress = {
-                let traced = std::cell::Cell::from_mut(&mut traced);
-                renderer.refine(
-                    &mut passes,
-                    |_| watcher.is_due(traced.get()),
-                    |block| {
-                        traced.set(traced.get() + 1);
-                        let color = match colors {
-                            Colors::Rgb888 => {
-                                Output::SRGB.pixel::<A, Rgb888>(&block.radiance, block.x, block.y).0
-                            }
-                            Colors::Rgb565 => shown(Output::SRGB.pixel::<A, Rgb565>(
-                                &block.radiance,
-                                block.x,
-                                block.y,
-                            )),
-                        };
-                        let (left, top) = (usize::from(block.x), usize::from(block.y));
-                        let rows = picture.rows_mut().skip(top).take(block.height.into());
-                        rows.for_each(|row| row[left..][..usize::from(block.width)].fill(color));
-                    },
-                )
+            let progress = match colors {
+                Colors::Rgb888 => live.refine(watcher, |Rgb888(color)| color),
+                Colors::Rgb565 => live.refine(watcher, shown),
             };
-            match watcher.look(picture, passes.side(), progress) {
+            match watcher.look(live.picture, live.passes.side(), progress) {
                 Next::GoOn => {}
                 next => return next,
             }
         }
     })
+}
+
+/// A picture that somebody watches.
+struct Live<'l, 'r, A: Construct> {
+    renderer: &'l mut Renderer<'r, A, MAX_DEPTH, Counts>,
+    passes: &'l mut Passes,
+    picture: &'l mut Picture,
+    /// Pixels, so far.
+    traced: Cell<u64>,
+}
+
+impl<A: Construct> Live<'_, '_, A> {
+    /// Goes on with it until a look is due.
+    fn refine<P: Pixel>(
+        &mut self,
+        watcher: &mut impl Watcher,
+        color: impl Fn(P) -> [u8; 3],
+    ) -> Progress {
+        let Self { renderer, passes, picture, traced } = self;
+        renderer.refine(
+            passes,
+            &Output::SRGB,
+            |_| watcher.is_due(traced.get()),
+            |block| {
+                traced.set(traced.get() + 1);
+                let (left, top) = (usize::from(block.x), usize::from(block.y));
+                let rows = picture.rows_mut().skip(top).take(block.height.into());
+                let color = color(block.pixel);
+                rows.for_each(|row| row[left..][..usize::from(block.width)].fill(color));
+            },
+        )
+    }
 }
 
 /// What a display shows for 16 bits: its levels stand evenly between black and white.

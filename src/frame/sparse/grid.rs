@@ -1,5 +1,5 @@
-//! The rays at even coordinates and the middles of the smallest blocks: which of them a row of pixels
-//! needs before it can be drawn.
+//! The rays at even coordinates, and which middles of the smallest blocks follow: what a row of blocks
+//! needs before its pixels can be drawn.
 //!
 //! The mark of a block's upper left corner says that its middle is to be traced. It is set when the
 //! corners below the next row of blocks are known: one of the blocks beside may be below. A block is open if
@@ -7,139 +7,31 @@
 //! weren't as means, which don't count as known.
 
 use super::layout::Layout;
-use super::{Sparse, Stage, mean};
-use crate::frame::Sample;
-use crate::math::Arithmetic;
+use super::slot::{between, is_known, mean};
+use super::{END, MARK, Memory, OPEN, Sparse, Stage, WANTED};
 
 /// So many blocks beside the columns that are asked for have their corners traced.
 const BESIDE: usize = 3;
 
+/// The note that a block of side 4, 8 or 16 is open.
 #[inline(always)]
-fn at<A: Arithmetic>(samples: &[Sample<A>], place: usize) -> Sample<A> {
-    samples.get(place).copied().unwrap_or(Sample::NONE)
+pub(super) fn open(side: u16) -> u32 {
+    OPEN.wrapping_mul(u32::from(side >> 2))
 }
 
-#[inline(always)]
-fn put<A: Arithmetic>(samples: &mut [Sample<A>], place: usize, sample: Sample<A>) {
-    if let Some(to) = samples.get_mut(place) {
-        *to = sample;
-    }
-}
-
-fn mark<A: Arithmetic>(samples: &mut [Sample<A>], place: usize) {
-    if let Some(sample) = samples.get_mut(place) {
-        *sample = sample.marked();
-    }
-}
-
-fn forget<A: Arithmetic>(samples: &mut [Sample<A>], from: usize, to: usize) {
-    if let Some(samples) = samples.get_mut(from..to) {
-        samples.iter_mut().for_each(Sample::forget);
-    }
-}
-
-impl Layout {
-    /// The corners of a block, row by row.
-    #[inline(always)]
-    fn corners(&self, corner: usize, side: u16) -> [usize; 4] {
-        let below = corner + self.offset(0, side);
-        let right = self.offset(side, 0);
-        [corner, corner + right, below, below + right]
-    }
-
-    /// The middle of a block.
-    #[inline(always)]
-    fn middle(&self, corner: usize, side: u16) -> usize {
-        corner + self.offset(side >> 1, side >> 1)
-    }
-
-    /// The middles of a block's sides: left, right, above, below.
-    #[inline(always)]
-    fn sides(&self, corner: usize, side: u16) -> [usize; 4] {
-        let half = side >> 1;
-        let (right, down) = (self.offset(side, half), self.offset(half, side));
-        [
-            corner + self.offset(0, half),
-            corner + right,
-            corner + self.offset(half, 0),
-            corner + down,
-        ]
-    }
-
-    /// Whether rays have been sent within a block of side 4 or more, or through the middles of its
-    /// sides.
-    #[inline(always)]
-    pub(super) fn is_open<A: Arithmetic>(
-        &self,
-        corner: usize,
-        side: u16,
-        samples: &[Sample<A>],
-    ) -> bool {
-        let known = |place: usize| samples.get(place).is_some_and(Sample::is_known);
-        known(self.middle(corner, side)) || self.sides(corner, side).into_iter().any(known)
-    }
-}
-
-impl<A: Arithmetic> Sparse<A> {
-    /// Prepares for a row of pixels between two columns; the next ray that is missing, if there is one.
+impl Sparse {
+    /// Begins so far above a row of blocks that all is known which it depends on: from the corners above
+    /// the one above it.
     #[inline(never)]
-    pub(super) fn prepare(
-        &mut self,
-        y: u16,
-        columns: (u16, u16),
-        samples: &mut [Sample<A>],
-    ) -> Option<(u16, u16)> {
-        self.run.end = 0;
-        let row = (y >> self.layout.log2_side) as i16;
-        if self.columns != columns {
-            self.ready = None;
-            self.pair = None;
-        }
-        let begun = self.columns == columns && (self.stage != Stage::Ready || self.row == row);
-        if !begun {
-            let next = self.columns == columns && self.row.wrapping_add(1) == row;
-            if !next {
-                // From where all is known that this row depends on: the corners above the one above it.
-                forget(samples, 0, self.layout.all);
-                self.row = row.wrapping_sub(5).max(-3);
-                self.columns = columns;
-            }
-            self.pair = None;
-            self.next_row(samples);
-        }
-        loop {
-            let asked = match self.stage {
-                Stage::Corners => self.corners(row, samples),
-                Stage::Middles => self.middles(samples),
-                Stage::Sides => self.sides(samples),
-                Stage::Ready if self.row == row => break,
-                Stage::Ready => {
-                    self.next_row(samples);
-                    None
-                }
-            };
-            if asked.is_some() {
-                return asked;
-            }
-        }
-        let pair = y >> 1;
-        if self.pair != Some(pair) {
-            if self.x == u16::MAX {
-                let layout = &self.layout;
-                forget(samples, layout.middles, layout.next);
-                self.x = self.span(2).0;
-            }
-            if let Some(asked) = self.smallest(y & !1, samples) {
-                return Some(asked);
-            }
-            self.pair = Some(pair);
-        }
-        self.x = u16::MAX;
-        self.ready = Some(y);
-        None
+    pub(super) fn begin(&mut self, wanted: i16, memory: &mut Memory<'_>) {
+        memory.lanes.fill(0);
+        self.row = wanted.wrapping_sub(5).max(-3);
+        self.waiting = END;
+        self.ready = None;
+        self.next_row(memory);
     }
 
-    /// From which column to which one, where blocks of side s begin, so many of them beside the
+    /// From which column to which one, where blocks begin, so many of them beside the
     /// columns that are asked for count.
     fn span(&self, beside: usize) -> (u16, u16) {
         let Layout { log2_side, blocks, .. } = self.layout;
@@ -149,136 +41,90 @@ impl<A: Arithmetic> Sparse<A> {
         ((first << log2_side) as u16, (last << log2_side) as u16)
     }
 
-    /// Asks for the sample at a pixel; beyond an edge, for the last pixel's.
-    fn request(&mut self, x: u16, y: u16, slot: usize) -> Option<(u16, u16)> {
-        self.slot = slot;
-        Some((x.min(self.last.0), y.min(self.last.1)))
+    /// The same of blocks that are divided.
+    #[inline(always)]
+    pub(super) fn divided(&self) -> (u16, u16) {
+        self.span(BESIDE - 1)
     }
 
     /// Goes to the next row of blocks: its upper edge is the lower one of this, its lower corners are
     /// those known ahead.
-    fn next_row(&mut self, samples: &mut [Sample<A>]) {
-        let Layout { stride, step, lower, next, all, blocks, .. } = self.layout;
-        for place in 0..stride {
-            let edge = at(samples, lower + place);
-            put(samples, place, edge);
+    #[inline(never)]
+    pub(super) fn next_row(&mut self, memory: &mut Memory<'_>) {
+        let Layout { stride, step, lower, next, blocks, .. } = self.layout;
+        if let Some((upper, edge)) = memory.lanes.split_at_mut_checked(lower) {
+            upper.iter_mut().zip(edge).take(stride).for_each(|(to, from)| *to = *from);
         }
-        forget(samples, stride, lower + stride);
-        for block in 0..=blocks {
-            let corner = at(samples, next + block);
-            put(samples, lower + block * step, corner);
+        if let Some((upper, edge)) = memory.values.split_at_mut_checked(lower) {
+            upper.iter_mut().zip(edge).take(stride).for_each(|(to, from)| *to = *from);
         }
-        forget(samples, next, all);
+        if let Some(lanes) = memory.lanes.get_mut(stride..next) {
+            lanes.fill(0);
+        }
+        let mut corner = lower;
+        for place in next..=next + blocks {
+            memory.set_lanes(corner, memory.lanes(place));
+            memory.set_values(corner, memory.values(place));
+            memory.set_lanes(place, 0);
+            corner += step;
+        }
         self.row = self.row.wrapping_add(1);
+        self.pair = None;
         self.stage = Stage::Corners;
-        self.x = self.span(BESIDE).0;
     }
 
-    /// Traces the corners below the next row of blocks, then marks those of its blocks whose corners
-    /// differ, with those around them.
-    fn corners(&mut self, wanted: i16, samples: &mut [Sample<A>]) -> Option<(u16, u16)> {
-        let Layout { side, log2_side, step, lower, next, .. } = self.layout;
-        let (first, last) = self.span(BESIDE);
-        // The row of the corners, in blocks.
+    /// Whether there are corners below the next row of blocks: there is no row of blocks below the
+    /// picture. And the pixels' row that they lie in.
+    fn corners_below(&self) -> Option<u16> {
+        let Layout { side, log2_side, .. } = self.layout;
         let corners = self.row.wrapping_add(2);
         let y = (corners as u16) << log2_side;
-        // There is no row of blocks below the picture.
-        if corners >= 0 && (corners == 0 || y - side <= self.last.1) {
-            let x = self.x;
-            if x <= last + side {
-                self.x = x + side;
-                return self.request(x, y, next + usize::from(x >> log2_side));
+        (corners >= 0 && (corners == 0 || y - side <= self.last.1)).then_some(y)
+    }
+
+    /// Asks for the corners below the next row of blocks.
+    #[inline(never)]
+    pub(super) fn corners(&mut self, memory: &mut Memory<'_>) {
+        self.stage = Stage::Marks;
+        let Layout { side, log2_side, next, .. } = self.layout;
+        let (first, last) = self.span(BESIDE);
+        if let Some(y) = self.corners_below() {
+            for block in first >> log2_side..=(last + side) >> log2_side {
+                self.wait(block << log2_side, y, next + usize::from(block), memory);
             }
-            let first = usize::from(first >> log2_side);
-            for block in first..=usize::from(last >> log2_side) {
-                let corner = lower + block * step;
-                let [a, b, c, d] = [corner, corner + step, next + block, next + block + 1]
-                    .map(|place| at(samples, place));
-                if a.is_known() && a.is_worth_a_ray(&b, &c, &d, self.threshold) {
-                    mark(samples, block * step);
-                    mark(samples, corner);
-                    mark(samples, next + block);
-                    if block > first {
-                        mark(samples, corner.wrapping_sub(step));
-                    }
-                    mark(samples, corner + step);
+        }
+    }
+
+    /// Marks the blocks of the next row whose corners differ, with those around them.
+    #[inline(never)]
+    pub(super) fn marks(&mut self, memory: &mut Memory<'_>) {
+        let Layout { log2_side, step, lower, next, .. } = self.layout;
+        if self.corners_below().is_none() {
+            return;
+        }
+        let (first, last) = self.span(BESIDE);
+        let (first, last) = (usize::from(first >> log2_side), usize::from(last >> log2_side));
+        for block in first..=last {
+            let corner = lower + block * step;
+            let four = [corner, corner + step, next + block, next + block + 1];
+            let four = four.map(|slot| memory.lanes(slot));
+            if is_known(four[0]) && self.limits.differ(four) {
+                for slot in [block * step, corner, next + block, corner + step] {
+                    memory.note(slot, 0, MARK);
+                }
+                if block > first {
+                    memory.note(corner - step, 0, MARK);
                 }
             }
         }
-        if self.row.wrapping_add(1) < wanted || self.row < 0 {
-            self.next_row(samples);
-        } else {
-            self.divide(side);
-        }
-        None
     }
 
-    /// Begins to divide the blocks of a side; none is smaller than 4.
-    fn divide(&mut self, side: u16) {
-        self.side = side;
-        self.stage = if side < 4 { Stage::Ready } else { Stage::Middles };
-        (self.x, self.down) = (if side < 4 { u16::MAX } else { self.span(BESIDE - 1).0 }, 0);
-    }
-
-    /// The corner of the next block of the side that is being divided.
-    fn next_block(&mut self) -> Option<(u16, u16)> {
-        let whole = self.layout.side;
-        let (first, last) = self.span(BESIDE - 1);
-        if self.x >= last + whole {
-            self.x = first;
-            self.down += self.side;
-        }
-        if self.down >= whole {
-            return None;
-        }
-        let place = (self.x, self.down);
-        self.x += self.side;
-        Some(place)
-    }
-
-    /// Whether all blocks of which this one is a part are open; or, `divided`, whether their own middles
-    /// have been traced: that doesn't depend on the row of blocks above.
-    fn is_within(
-        &self,
-        (x, down, side): (u16, u16, u16),
-        divided: bool,
-        samples: &[Sample<A>],
-    ) -> bool {
-        let layout = &self.layout;
-        let mut outer = layout.side;
-        while outer > side {
-            let mask = !(outer - 1);
-            let corner = layout.offset(x & mask, down & mask);
-            let middle = at(samples, layout.middle(corner, outer)).is_known();
-            if !middle && (divided || !layout.is_open(corner, outer, samples)) {
-                return false;
-            }
-            outer >>= 1;
-        }
-        true
-    }
-
-    /// Traces the middles of blocks.
-    fn middles(&mut self, samples: &mut [Sample<A>]) -> Option<(u16, u16)> {
-        let side = self.side;
-        while let Some((x, down)) = self.next_block() {
-            let layout = &self.layout;
-            let corner = layout.offset(x, down);
-            let wanted = if side == layout.side {
-                at(samples, corner).is_marked()
-            } else {
-                let [a, b, c, d] = layout.corners(corner, side).map(|place| at(samples, place));
-                self.is_within((x, down, side), true, samples)
-                    && a.is_worth_a_ray(&b, &c, &d, self.threshold)
-            };
-            if wanted {
-                let (half, y) = (side >> 1, self.top() + down);
-                return self.request(x + half, y + half, layout.middle(corner, side));
-            }
-        }
-        self.stage = Stage::Sides;
-        (self.x, self.down, self.which) = (self.span(BESIDE - 1).0, 0, 0);
-        None
+    /// Whether the block of side 8 or 16 around one of half its side has been divided at its middle.
+    #[inline(always)]
+    fn is_around_divided(&self, x: u16, down: u16, side: u16, memory: &Memory<'_>) -> bool {
+        let (outer, mask) = (side << 1, !(side << 1).wrapping_sub(1));
+        let corner = self.layout.offset(x & mask, down & mask);
+        is_known(memory.lanes(self.layout.middle(corner, outer)))
     }
 
     /// The first row of pixels of the row of blocks.
@@ -286,116 +132,154 @@ impl<A: Arithmetic> Sparse<A> {
         (self.row as u16) << self.layout.log2_side
     }
 
-    /// Traces the middles of the sides of blocks whose own has been, then lays means where none
-    /// are.
-    fn sides(&mut self, samples: &mut [Sample<A>]) -> Option<(u16, u16)> {
-        let (side, half) = (self.side, self.side >> 1);
-        loop {
-            let (x, down) = if self.which == 0 {
-                let Some(place) = self.next_block() else { break };
-                place
-            } else {
-                (self.x - side, self.down)
-            };
-            let layout = &self.layout;
-            let corner = layout.offset(x, down);
-            let middle = at(samples, layout.middle(corner, side));
-            if !middle.is_known() {
-                continue;
-            }
-            let places = layout.sides(corner, side);
-            let [p, q, r, s] = layout.corners(corner, side);
-            let own = layout.middle(corner, side);
-            let (across, along) = (layout.offset(side, 0), layout.offset(0, side));
-            while self.which < 4 {
-                let which = self.which;
-                self.which += 1;
-                // Its ends, the middle of the block on its other side, and where it is.
-                let (ends, other, right, below) = match which {
-                    0 => ((p, r), (x > 0).then(|| own.wrapping_sub(across)), 0, half),
-                    1 => ((q, s), Some(own + across), side, half),
-                    // The row of blocks above has decided its lower edge, if there is one.
-                    2 if down == 0 && self.row > 0 => continue,
-                    2 => ((p, q), (down > 0).then(|| own.wrapping_sub(along)), half, 0),
-                    _ => {
-                        let within = down + side < layout.side;
-                        ((r, s), within.then_some(own + along), half, side)
-                    }
+    /// Asks for the middles of blocks.
+    #[inline(never)]
+    pub(super) fn middles(&mut self, memory: &mut Memory<'_>) {
+        self.stage = Stage::Sides;
+        let (layout, side, half) = (self.layout, self.side, self.side >> 1);
+        let (first, last) = self.divided();
+        let mut down = 0;
+        while down < layout.side {
+            let mut x = first;
+            while x < last + layout.side {
+                let corner = layout.offset(x, down);
+                let wanted = if side == layout.side {
+                    memory.values(corner)[1] & MARK != 0
+                } else {
+                    let four = layout.corners(corner, side).map(|slot| memory.lanes(slot));
+                    self.is_around_divided(x, down, side, memory) && self.limits.differ(four)
                 };
-                let place = places[usize::from(which & 3)];
-                let other = other.map(|place| at(samples, place)).filter(Sample::is_known);
-                let other = other.unwrap_or(middle);
-                let (a, b) = (at(samples, ends.0), at(samples, ends.1));
-                if !at(samples, place).is_known()
-                    && a.is_worth_a_ray(&b, &middle, &other, self.threshold)
-                {
-                    let y = self.top() + down + below;
-                    return self.request(x + right, y, place);
+                if wanted {
+                    let y = self.top() + down;
+                    self.wait(x + half, y + half, layout.middle(corner, side), memory);
                 }
+                x += side;
             }
-            self.which = 0;
+            down += side;
         }
-        self.lay_means(samples);
-        self.divide(half);
-        None
+    }
+
+    /// Asks for the middles of the sides of blocks of which one has been traced at its middle.
+    #[inline(never)]
+    pub(super) fn sides(&mut self, memory: &mut Memory<'_>) {
+        self.stage = Stage::Means;
+        let (layout, side, half) = (self.layout, self.side, self.side >> 1);
+        let (first, last) = self.divided();
+        let (right, under) = (layout.offset(side, 0), layout.offset(0, side));
+        let mut down = 0;
+        while down < layout.side {
+            let y = self.top() + down;
+            let mut x = first;
+            let mut corner = layout.offset(x, down);
+            let mut own = layout.middle(corner, side);
+            let mut before = 0;
+            loop {
+                let is_behind = x >= last + layout.side;
+                let middle = if is_behind { 0 } else { memory.lanes(own) };
+                // The left one.
+                if is_known(before | middle) {
+                    let slot = corner + layout.offset(0, half);
+                    let ends = (corner, corner + under);
+                    self.side((x, y + half), slot, ends, (before, middle), memory);
+                }
+                if is_behind {
+                    break;
+                }
+                // The lower one. Of the row of blocks below nothing is known yet.
+                let within = down + side < layout.side;
+                let next = if within { memory.lanes(own + under) } else { 0 };
+                if is_known(middle | next) {
+                    let slot = corner + under + (right >> 1);
+                    let ends = (corner + under, corner + under + right);
+                    self.side((x + half, y + side), slot, ends, (middle, next), memory);
+                }
+                // The row of blocks above has decided its lower ones, if there is one.
+                if down == 0 && self.row <= 0 && is_known(middle) {
+                    let (slot, ends) = (corner + (right >> 1), (corner, corner + right));
+                    self.side((x + half, y), slot, ends, (middle, middle), memory);
+                }
+                before = middle;
+                x += side;
+                corner += right;
+                own += right;
+            }
+            down += side;
+        }
+    }
+
+    /// Asks for the middle of a side between two blocks if it is worth a ray; one of the blocks at
+    /// least has been traced at its middle.
+    #[inline(never)]
+    fn side(
+        &mut self,
+        (x, y): (u16, u16),
+        slot: usize,
+        ends: (usize, usize),
+        (one, two): (u32, u32),
+        memory: &mut Memory<'_>,
+    ) {
+        let (one, two) = either(one, two);
+        if self.limits.differ([memory.lanes(ends.0), memory.lanes(ends.1), one, two]) {
+            self.wait(x, y, slot, memory);
+        }
     }
 
     /// Lays the means of what is around them where open blocks have no rays.
-    fn lay_means(&mut self, samples: &mut [Sample<A>]) {
-        let side = self.side;
-        (self.x, self.down) = (self.span(BESIDE - 1).0, 0);
-        while let Some((x, down)) = self.next_block() {
-            let layout = &self.layout;
-            let corner = layout.offset(x, down);
-            if !self.is_within((x, down, side >> 1), false, samples) {
-                continue;
+    #[inline(never)]
+    pub(super) fn means(&mut self, memory: &mut Memory<'_>) {
+        let (layout, side) = (self.layout, self.side);
+        let (first, last) = self.divided();
+        let mut down = 0;
+        while down < layout.side {
+            let mut x = first;
+            while x < last + layout.side {
+                self.lay(x, down, memory);
+                x += side;
             }
-            let [a, b, c, d] = layout.corners(corner, side).map(|place| at(samples, place));
-            let sides = layout.sides(corner, side);
-            let middle = layout.middle(corner, side);
-            let between = [(a, c), (b, d), (a, b), (c, d)].map(|(a, b)| a.between(&b, mean::<A>));
-            for (place, mean) in sides.into_iter().zip(between) {
-                if !at(samples, place).is_known() {
-                    put(samples, place, mean);
-                }
-            }
-            if !at(samples, middle).is_known() {
-                put(samples, middle, between[0].between(&between[1], mean::<A>));
-            }
+            down += side;
         }
+        self.side = side >> 1;
+        self.stage = if side > 4 { Stage::Middles } else { Stage::Blocks };
     }
 
-    /// Traces the middles of the smallest blocks, those of the pair of rows from y on.
-    fn smallest(&mut self, y: u16, samples: &mut [Sample<A>]) -> Option<(u16, u16)> {
-        let whole = self.layout.side;
-        let last = self.span(BESIDE - 1).1 + whole;
-        let down = y & (whole - 1);
-        while self.x < last {
-            let x = self.x;
-            self.x += 2;
-            let layout = &self.layout;
-            if whole > 2 && !self.is_within((x, down, 2), false, samples) {
-                // Nor is the other half of that block.
-                self.x = (x | 3) + 1;
-                continue;
-            }
-            let wanted = |x: u16, down: u16| {
-                let corner = layout.offset(x, down);
-                let four = layout.corners(corner, 2).map(|place| at(samples, place));
-                let [a, b, c, d] = &four;
-                let known = four.iter().filter(|sample| sample.is_known()).count();
-                (a.is_worth_a_ray(b, c, d, self.threshold), known)
-            };
-            let wanted = if whole == 2 {
-                at(samples, layout.offset(x, down)).is_marked()
-            } else {
-                let (own, known) = wanted(x, down);
-                own || known > 2 && (wanted(x ^ 2, down).0 || wanted(x, down ^ 2).0)
-            };
-            if wanted {
-                return self.request(x | 1, y | 1, layout.middles + usize::from(x >> 1));
-            }
+    /// Lays those of one block, if it is open, and notes whether it is.
+    #[inline(always)]
+    fn lay(&self, x: u16, down: u16, memory: &mut Memory<'_>) {
+        let (layout, side) = (&self.layout, self.side);
+        let corner = layout.offset(x, down);
+        let middle = layout.middle(corner, side);
+        let sides = layout.sides(corner, side);
+        let mask = !(side << 1).wrapping_sub(1);
+        let outer = layout.offset(x & mask, down & mask);
+        let within = side == layout.side || memory.values(outer)[1] & open(side << 1) != 0;
+        let known = |slot: usize| is_known(memory.lanes(slot));
+        if !within || !(known(middle) || sides.into_iter().any(known)) {
+            memory.note(corner, open(side), 0);
+            return;
         }
-        None
+        let [a, b, c, d] = layout.corners(corner, side);
+        let [left, right, above, below] = sides;
+        lay_between(left, a, c, memory);
+        lay_between(right, b, d, memory);
+        lay_between(above, a, b, memory);
+        lay_between(below, c, d, memory);
+        lay_between(middle, left, right, memory);
+        let wanted = if side == 4 { self.wanted(corner, memory) } else { 0 };
+        memory.note(corner, open(4) | 15 * WANTED, open(side) | wanted);
+    }
+}
+
+/// Of two of which one at least is known, each; or the one twice.
+#[inline(always)]
+pub(super) fn either(one: u32, two: u32) -> (u32, u32) {
+    (if is_known(one) { one } else { two }, if is_known(two) { two } else { one })
+}
+
+/// Lays the mean of two slots at a third, if no ray has been sent there.
+#[inline(never)]
+fn lay_between(slot: usize, one: usize, two: usize, memory: &mut Memory<'_>) {
+    if !is_known(memory.lanes(slot)) {
+        memory.set_lanes(slot, between(memory.lanes(one), memory.lanes(two)));
+        memory.set_values(slot, mean(memory.values(one), memory.values(two)));
     }
 }

@@ -11,96 +11,139 @@
 //! also if the one beside, above or below in the same block of side 4 would be and three of its corners
 //! are samples. What isn't traced is the mean of what lies around it.
 //!
-//! Samples are told apart by colour: where the rays hit different things or shadows, three quarters of the
-//! difference is enough; where all four took many rays, a ray is worth it from half as much again. Whether
-//! a side is traced that two rows of blocks share, the upper one says, since it is drawn
-//! first. Beyond the right and the lower edge of the picture a block's corners are the last pixels' samples.
+//! All this goes by what is shown: samples are display values, after exposure and transfer curve, and
+//! differ if a channel does by more than a threshold; where all four took many rays, by half as much
+//! again. Integers are all that is left then, whatever the arithmetic. Another tone is another picture:
+//! nothing is remembered from one to the other.
 //!
-//! The sampler traces nothing itself: it is asked for one pixel after the other, and says which ray it
-//! wants first. So the tracer is called from one place, in the loop over pixels.
+//! Whether a side is traced that two rows of blocks share, the upper one says, since it is drawn first.
+//! Beyond the right and the lower edge of the picture a block's corners are the last pixels' samples.
+//!
+//! The sampler traces nothing itself: asked for a row of pixels, it says which ray it wants
+//! [next](Sparse::next), until the row's display values lie in memory. So the tracer is called from one
+//! place. What is decided without knowing the outcome of each other is decided at once, and waits in a
+//! chain that runs through the places where the samples will be. Each stage is a function of its own: in
+//! one, none of what it works with would stay in registers.
 
 mod grid;
 mod layout;
+mod pixels;
+mod slot;
 
-use super::{Sample, Sampling};
-use crate::math::{Arithmetic, Rgb, rgb};
+use super::{Sampling, Tone};
 use layout::Layout;
+pub(super) use slot::FEW_RAYS;
+use slot::{Limits, Values, lanes, pack, unpack};
 
-/// The middle between two.
-#[inline(always)]
-fn mean<A: Arithmetic>(a: &Rgb<A::Radiance>, b: &Rgb<A::Radiance>) -> Rgb<A::Radiance> {
-    rgb(a, b, |a, b| A::mean(A::gather(a, b), 2))
-}
+/// The end of the chain.
+const END: u32 = u32::MAX;
+/// Of the word that is compared: the sample waits for its ray.
+const WAITS: u32 = 1 << 29;
 
-/// Pixels of a row that lie in one undivided block.
-#[derive(Clone, Copy, Debug)]
-struct Run<A: Arithmetic> {
-    /// At the block's left edge.
-    left: Rgb<A::Radiance>,
-    /// From a pixel to the next.
-    step: Rgb<A::Radiance>,
-    /// The block's first column.
-    start: u16,
-    /// The column behind the last; 0 for none.
-    end: u16,
-}
+// What is noted at a block's upper left corner, above the display value of blue.
 
-/// What the sampler says when it is asked for a pixel.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Answer<A: Arithmetic> {
-    /// This is it.
-    Pixel(Rgb<A::Radiance>),
-    /// A ray through the centre of the pixel at (x, y), of which the sampler is to be
-    /// [told](Sparse::tell) before it is asked again.
-    Sample(u16, u16),
-    /// A ray through the pixel's own centre: what that finds is the pixel.
-    Traced,
-}
+/// The block's middle is to be traced.
+const MARK: u32 = 1 << 16;
+/// Rays have been sent within the block of side 4, or through the middles of its sides; of those of side 8
+/// and 16 the next bits say so.
+const OPEN: u32 = 1 << 17;
+/// The middles of its smallest blocks are to be traced; row by row.
+const WANTED: u32 = 1 << 20;
 
-/// What is ready.
+/// What comes next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
-    /// The corners below the next row of blocks are being traced.
+    /// To ask for the corners below the next row of blocks.
     Corners,
-    /// The middles of blocks of a side are.
+    /// To mark the blocks between the corners.
+    Marks,
+    /// To ask for the middles of blocks of a side.
     Middles,
-    /// The middles of their sides are.
+    /// For the middles of their sides.
     Sides,
-    /// The row of blocks is ready.
-    Ready,
+    /// To lay means where there are none.
+    Means,
+    /// The row of blocks is ready: to ask for the smallest middles of a pair of rows, and for single
+    /// pixels.
+    Blocks,
+    /// The row of pixels is ready.
+    Row,
+}
+
+/// The caller's memory.
+struct Memory<'m> {
+    /// The row of pixels.
+    row: &'m mut [Values],
+    /// What is compared, of each slot.
+    lanes: &'m mut [u32],
+    /// What is shown.
+    values: &'m mut [Values],
+}
+
+impl Memory<'_> {
+    #[inline(always)]
+    fn lanes(&self, slot: usize) -> u32 {
+        self.lanes.get(slot).copied().unwrap_or(0)
+    }
+
+    #[inline(always)]
+    fn values(&self, slot: usize) -> Values {
+        self.values.get(slot).copied().unwrap_or_default()
+    }
+
+    #[inline(always)]
+    fn set_lanes(&mut self, slot: usize, lanes: u32) {
+        if let Some(to) = self.lanes.get_mut(slot) {
+            *to = lanes;
+        }
+    }
+
+    #[inline(always)]
+    fn set_values(&mut self, slot: usize, values: Values) {
+        if let Some(to) = self.values.get_mut(slot) {
+            *to = values;
+        }
+    }
+
+    /// Takes some notes away at a corner, and makes others.
+    #[inline(always)]
+    fn note(&mut self, slot: usize, without: u32, with: u32) {
+        if let Some([_, notes]) = self.values.get_mut(slot) {
+            *notes = *notes & !without | with;
+        }
+    }
 }
 
 /// The sampler: where it stands. What it has been told lies in the caller's memory.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sparse<A: Arithmetic> {
+pub(super) struct Sparse {
     layout: Layout,
-    threshold: u8,
+    limits: Limits,
+    /// What the display values were made by.
+    tone: Tone,
     /// The picture's last column and row.
     last: (u16, u16),
-    run: Run<A>,
     /// The columns that are asked for, nothing being known of others; the first behind the last for
     /// none.
     columns: (u16, u16),
     /// The row of blocks that is ready or being made.
     row: i16,
-    /// The row of pixels that all but single pixels is ready for, and the pair of rows for which the
-    /// smallest blocks' middles are.
+    /// The row of pixels that is ready, and the pair of rows for which the smallest blocks' middles
+    /// are.
     ready: Option<u16>,
     pair: Option<u16>,
     stage: Stage,
     /// The side of the blocks that are being divided.
     side: u16,
-    /// The next place to look at: pixels from the picture's left edge and the block's upper one.
-    x: u16,
-    down: u16,
-    /// Which of the sides there.
-    which: u8,
-    /// Where the sample goes that was asked for.
+    /// The first in the chain of samples that wait.
+    waiting: u32,
+    /// The slot of the ray that was asked for last, and the word where its display values go.
     slot: usize,
+    place: usize,
 }
 
-impl<A: Arithmetic> Sparse<A> {
-    /// For pictures of this size.
+impl Sparse {
+    /// The sampler for a picture; one that isn't asked for another sampling.
     pub(super) const fn new(width: u16, height: u16, sampling: Sampling) -> Self {
         let (side, threshold) = match sampling {
             Sampling::Sparse { side, threshold } => (side, threshold),
@@ -108,19 +151,18 @@ impl<A: Arithmetic> Sparse<A> {
         };
         Self {
             layout: Layout::new(width, side),
-            threshold,
+            limits: Limits::new(threshold),
+            tone: Tone::SRGB,
             last: (width - 1, height - 1),
-            run: Run { left: [A::BLACK; 3], step: [A::BLACK; 3], start: 0, end: 0 },
             columns: (1, 0),
             row: 0,
             ready: None,
             pair: None,
-            stage: Stage::Ready,
+            stage: Stage::Blocks,
             side: 0,
-            x: 0,
-            down: 0,
-            which: 0,
+            waiting: END,
             slot: 0,
+            place: 0,
         }
     }
 
@@ -129,107 +171,124 @@ impl<A: Arithmetic> Sparse<A> {
     pub(super) fn take(&mut self) -> Self {
         let taken = *self;
         self.columns = (1, 0);
-        self.ready = None;
         taken
     }
 
-    /// The pixel at x if it lies in the same undivided block as the one before.
+    /// The display values of a pixel of the row that is ready.
     #[inline(always)]
-    pub(super) fn goes_on(&self, x: u16, columns: (u16, u16)) -> Option<Rgb<A::Radiance>> {
-        let Run { left, step, start, end } = &self.run;
-        (x < *end && x != columns.0)
-            .then(|| rgb(left, step, |a, b| A::steps(a, b, x.wrapping_sub(*start))))
+    pub(super) fn pixel(x: u16, words: &[u32]) -> [u16; 3] {
+        let place = usize::from(x) << 1;
+        let word = |place: usize| words.get(place).copied().unwrap_or(0);
+        unpack([word(place), word(place | 1)])
     }
 
-    /// The pixel at (x, y), or what is missing. `columns` are those that are asked for in this row, from
-    /// the first to the last, one after the other.
+    /// Those of all, from the first on.
+    #[inline(always)]
+    pub(super) fn pixels_of(words: &[u32]) -> impl Iterator<Item = [u16; 3]> {
+        words.as_chunks().0.iter().map(|&values| unpack(values))
+    }
+
+    /// Where the next ray goes that the row of pixels at y needs between two columns, through the
+    /// centre of a pixel; the sampler is to be [told](Self::tell) what it finds before it is asked
+    /// again. `None` if the row is ready.
     #[inline(never)]
-    pub(super) fn ask(
+    pub(super) fn next(
         &mut self,
-        x: u16,
         y: u16,
         columns: (u16, u16),
-        samples: &mut [Sample<A>],
-    ) -> Answer<A> {
-        if (self.ready != Some(y) || self.columns != columns)
-            && let Some((x, y)) = self.prepare(y, columns, samples)
-        {
-            return Answer::Sample(x, y);
+        tone: &Tone,
+        words: &mut [u32],
+    ) -> Option<(u16, u16)> {
+        if self.waiting == END {
+            self.go_on(y, columns, tone, words);
+            if self.waiting == END {
+                return None;
+            }
         }
-        let at = |place: usize| samples.get(place).copied().unwrap_or(Sample::NONE);
+        // Single pixels wait in the row, the others in their slots.
         let layout = &self.layout;
-        let mask = layout.side - 1;
-        // Where the pixel lies in the smallest block around it, and where that begins.
-        let (mut right, mut down, mut side) = (x & mask, y & mask, layout.side);
-        let mut corner = usize::from((x - right) >> 1);
-        while side > 2 {
-            if !layout.is_open(corner, side, samples) {
-                let log2 = side.trailing_zeros();
-                let edge = |right: u16| {
-                    let top = at(corner + layout.offset(right, 0));
-                    let bottom = at(corner + layout.offset(right, side));
-                    rgb(&top.radiance, &bottom.radiance, |a, b| {
-                        A::steps(a, A::step(a, b, log2), down)
-                    })
-                };
-                let left = edge(0);
-                let step = rgb(&left, &edge(side), |a, b| A::step(a, b, log2));
-                let start = x - right;
-                self.run = Run { left, step, start, end: start + side };
-                return Answer::Pixel(rgb(&left, &step, |a, b| A::steps(a, b, right)));
-            }
-            // Into the quarter around the pixel.
-            side >>= 1;
-            if right >= side {
-                right -= side;
-                corner += layout.offset(side, 0);
-            }
-            if down >= side {
-                down -= side;
-                corner += layout.offset(0, side);
-            }
-        }
-        let first = at(corner);
-        if right | down == 0 {
-            return Answer::Pixel(first.radiance);
-        }
-        let place = layout.middles + usize::from(x >> 1);
-        let middle = at(place);
-        if right & down != 0 {
-            if middle.is_known() {
-                return Answer::Pixel(middle.radiance);
-            }
-            let other = [corner + layout.stride, corner + 1, corner + layout.stride + 1].map(at);
-            let left = mean::<A>(&first.radiance, &other[0].radiance);
-            let right = mean::<A>(&other[1].radiance, &other[2].radiance);
-            return Answer::Pixel(mean::<A>(&left, &right));
-        }
-        // Between two: the middles beside say whether it is worth a ray.
-        let (other, beside) = if right == 0 {
-            let left = if x == 0 { Sample::NONE } else { at(place - 1) };
-            (at(corner + layout.stride), left)
-        } else {
-            (at(corner + 1), Sample::NONE)
-        };
-        let (one, two) = match (middle.is_known(), beside.is_known()) {
-            (true, true) => (middle, beside),
-            (true, false) => (middle, middle),
-            (false, true) => (beside, beside),
-            (false, false) => {
-                return Answer::Pixel(mean::<A>(&first.radiance, &other.radiance));
-            }
-        };
-        if first.is_worth_a_ray(&other, &one, &two, self.threshold) {
-            return Answer::Traced;
-        }
-        Answer::Pixel(mean::<A>(&first.radiance, &other.radiance))
+        let base = if self.stage == Stage::Row { 0 } else { layout.values };
+        self.slot = self.waiting as usize;
+        self.place = base + 2 * self.slot;
+        let word = |place: usize| words.get(place).copied().unwrap_or(END);
+        let at = word(self.place);
+        self.waiting = word(self.place + 1);
+        Some((at as u16, (at >> 16) as u16))
     }
 
     /// What the ray has found that the sampler asked for.
     #[inline(always)]
-    pub(super) fn tell(&self, sample: Sample<A>, samples: &mut [Sample<A>]) {
-        if let Some(place) = samples.get_mut(self.slot) {
-            *place = sample.known();
+    pub(super) fn tell(&self, shown: [u16; 3], costly: bool, words: &mut [u32]) {
+        let mut put = |place: usize, word: u32| {
+            if let Some(to) = words.get_mut(place) {
+                *to = word;
+            }
+        };
+        let values = pack(shown);
+        put(self.place, values[0]);
+        put(self.place + 1, values[1]);
+        if self.place >= self.layout.values {
+            put(self.layout.row + self.slot, lanes(values, costly));
         }
+    }
+
+    /// Goes on until samples wait for rays or the row is ready.
+    #[inline(never)]
+    fn go_on(&mut self, y: u16, columns: (u16, u16), tone: &Tone, words: &mut [u32]) {
+        let Layout { row, all, log2_side, side, .. } = self.layout;
+        let Some((row, slots)) = words.split_at_mut_checked(row) else { return };
+        let Some((lanes, values)) = slots.split_at_mut_checked(all) else { return };
+        let (row, values) = (row.as_chunks_mut().0, values.as_chunks_mut().0);
+        let memory = &mut Memory { row, lanes, values };
+        let wanted = (y >> log2_side) as i16;
+        if self.columns != columns || self.tone != *tone {
+            (self.columns, self.tone) = (columns, *tone);
+            self.begin(wanted, memory);
+        } else if self.ready == Some(y) {
+            return;
+        } else if self.stage == Stage::Row && self.ready.is_some() {
+            // Another row was asked for before.
+            self.ready = None;
+            self.stage = Stage::Blocks;
+            if self.row != wanted && self.row.wrapping_add(1) != wanted {
+                self.begin(wanted, memory);
+            }
+        }
+        while self.waiting == END {
+            match self.stage {
+                Stage::Corners => self.corners(memory),
+                Stage::Marks => {
+                    self.marks(memory);
+                    if self.row.wrapping_add(1) < wanted || self.row < 0 {
+                        self.next_row(memory);
+                    } else {
+                        self.side = side;
+                        self.stage = if side < 4 { Stage::Blocks } else { Stage::Middles };
+                    }
+                }
+                Stage::Middles => self.middles(memory),
+                Stage::Sides => self.sides(memory),
+                Stage::Means => self.means(memory),
+                Stage::Blocks if self.row != wanted => self.next_row(memory),
+                Stage::Blocks if self.pair != Some(y >> 1) => {
+                    self.pair = Some(y >> 1);
+                    self.smallest(y & !1, memory);
+                }
+                Stage::Blocks => self.pixels(y, memory),
+                Stage::Row => {
+                    self.ready = Some(y);
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Lets a sample wait for its ray through a pixel; beyond an edge, through the last one.
+    #[inline(always)]
+    fn wait(&mut self, x: u16, y: u16, slot: usize, memory: &mut Memory<'_>) {
+        let (x, y) = (x.min(self.last.0), y.min(self.last.1));
+        memory.set_lanes(slot, WAITS);
+        memory.set_values(slot, [u32::from(x) | u32::from(y) << 16, self.waiting]);
+        self.waiting = slot as u32;
     }
 }

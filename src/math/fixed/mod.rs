@@ -558,9 +558,10 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn aim_over(a: Aim, n: u32) -> Aim {
-        let bits = i64::from(a.to_bits()).checked_div(i64::from(n));
-        bits.map_or(a, |bits| Aim::from_bits(bits as i32))
+    fn aim_step(a: Aim, n: u16) -> Aim {
+        // Twice the longest needs a bit more.
+        let twice = i64::from(a.to_bits()) << 1;
+        Aim::from_bits(twice.checked_div(i64::from(n)).unwrap_or(0) as i32)
     }
 
     fn aims(vectors: [[Aim; 3]; 3], width: u16, height: u16) -> [[Aim; 3]; 3] {

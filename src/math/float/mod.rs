@@ -522,8 +522,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn aim_over(a: $f, n: u32) -> $f {
-                if n == 0 { a } else { a / n as $f }
+            fn aim_step(a: $f, n: u16) -> $f {
+                if n == 0 { 0.0 } else { (a + a) / $f::from(n) }
             }
 
             fn aims(vectors: [[$f; 3]; 3], _: u16, _: u16) -> [[$f; 3]; 3] {
