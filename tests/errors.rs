@@ -332,10 +332,11 @@ fn building_trees() {
         .collect();
     let build = |extents: &[Extent], words: usize, scratch: usize| {
         let (mut words, mut scratch) = (vec![0; words], vec![0; scratch]);
-        build_into(extents, &mut words, &mut scratch, Limits::DEFAULT).map(|_| ())
+        build_into(extents, &mut words, &mut scratch, Limits::DEFAULT).map(|built| built.words)
     };
-    assert_eq!(build(&balls, 1000, 1000), Ok(()));
-    for words in [0, 1, 20] {
+    let used = build(&balls, 1000, 1000).unwrap();
+    assert_eq!(build(&balls, used, 1000), Ok(used));
+    for words in [0, 1, used / 2, used - 1] {
         assert_eq!(build(&balls, words, 1000), Err(BuildError::Words));
     }
     for scratch in [0, 39, 41] {
@@ -370,23 +371,23 @@ fn trees_that_are_none() {
     const EMPTY: u32 = LEAF | (MORE - 1);
     let cube = Cube { origin: [0; 3], log2_side: 20 };
     let inner = |children: u32, first: u32| children << 23 | first;
-    // One cell whose side is 128 << 6 steps, in the only row.
+    // One cell whose side is 128 << 6 steps.
     let grid = 128 << 9 | 6 << 17;
-    let of_cell = |words: &[u32]| [&[grid, inner(1, 2)], words].concat();
+    let of_cell = |words: &[u32]| [&[grid], words].concat();
     let tree = |words: &[u32], shapes| Fixed::octree(words, shapes, &cube, -16).err();
     let error = |words: &[u32], shapes| tree(&of_cell(words), shapes);
     assert_eq!(tree(&[], 0), None);
-    assert_eq!(tree(&[grid, inner(0, 2)], 1), None);
+    assert_eq!(tree(&[grid, 0], 1), None);
     assert_eq!(error(&[EMPTY], 1), None);
-    assert_eq!(error(&[inner(1, 3), EMPTY], 1), None);
+    assert_eq!(error(&[inner(1, 2), EMPTY], 1), None);
 
     assert_eq!(error(&[EMPTY], 1 << 23), Some(TreeError::TooManyShapes));
-    assert_eq!(error(&[inner(1, 4), EMPTY], 1), Some(TreeError::Order));
+    assert_eq!(error(&[inner(1, 3), EMPTY], 1), Some(TreeError::Order));
     assert_eq!(error(&[LEAF | MORE | 7, EMPTY], 1), Some(TreeError::Order));
-    assert_eq!(error(&[inner(3, 3), EMPTY], 1), Some(TreeError::Truncated));
-    assert_eq!(error(&[LEAF | MORE | 3, EMPTY | MORE], 1), Some(TreeError::Truncated));
-    assert_eq!(error(&[inner(0, 3)], 1), Some(TreeError::Childless));
-    let deep: Vec<_> = (0..13).map(|i| inner(1, i + 3)).chain([EMPTY]).collect();
+    assert_eq!(error(&[inner(3, 2), EMPTY], 1), Some(TreeError::Truncated));
+    assert_eq!(error(&[LEAF | MORE | 2, EMPTY | MORE], 1), Some(TreeError::Truncated));
+    assert_eq!(error(&[inner(0, 2)], 1), Some(TreeError::Childless));
+    let deep: Vec<_> = (0..13).map(|i| inner(1, i + 2)).chain([EMPTY]).collect();
     assert_eq!(error(&deep, 1), Some(TreeError::TooDeep));
     // three shapes have ids of two bits: the tree over two of them names the third
     let leaf = EMPTY & !(3 ^ 2);
@@ -394,10 +395,9 @@ fn trees_that_are_none() {
     assert_eq!(error(&[leaf], 2), Some(TreeError::Id));
     assert_eq!(error(&[EMPTY, EMPTY], 1), Some(TreeError::Length));
     assert_eq!(tree(&[], 1), Some(TreeError::Length));
-    // a leaf is no grid, and no row; a row's second cell isn't there
+    // a leaf is no grid, and an inner node has no empty cells
     assert_eq!(tree(&[EMPTY], 1), Some(TreeError::Grid));
-    assert_eq!(tree(&[grid, EMPTY], 1), Some(TreeError::Grid));
-    assert_eq!(tree(&[grid, inner(2, 2), EMPTY], 1), Some(TreeError::Grid));
+    assert_eq!(error(&[inner(1, 2), 0], 1), Some(TreeError::Childless));
     assert_eq!(tree(&[grid], 1), Some(TreeError::Truncated));
     let one = of_cell(&[EMPTY]);
     for cube in [

@@ -265,7 +265,7 @@ impl Sparse {
         lay_between(below, c, d, memory);
         lay_between(middle, left, right, memory);
         let wanted = if side == 4 { self.wanted(corner, memory) } else { 0 };
-        memory.note(corner, open(4) | 15 * WANTED, open(side) | wanted);
+        memory.note(corner, open(4) | (15 * WANTED), open(side) | wanted);
     }
 }
 

@@ -39,7 +39,7 @@ impl Sparse {
                 u32::from(memory.values(layout.offset(x, 0))[1] & MARK != 0)
             } else {
                 let [_, notes] = memory.values(layout.offset(x, down & !3));
-                if notes & open(4) == 0 { 0 } else { notes / WANTED >> (down & 2) & 3 }
+                if notes & open(4) == 0 { 0 } else { (notes / WANTED) >> (down & 2) & 3 }
             };
             memory.set_lanes(place, 0);
             if wanted & 1 != 0 {
