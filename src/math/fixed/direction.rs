@@ -95,27 +95,29 @@ pub(super) fn aims(vectors: &[[i32; 3]; 3], width: u16, height: u16) -> [[i32; 3
     // In steps of 2⁻¹²: three squares fit 64 bits. Each number is rounded, what lies aside by up to one for
     // each height in the width.
     let slack = u64::from(width.checked_div(height).unwrap_or(0)).wrapping_add(4);
-    let square = |v: [i64; 3]| {
-        let part = |x: i64| x.unsigned_abs().wrapping_add(slack);
+    let square = |v: [i32; 3]| {
+        let part = |x: i32| u64::from(x.unsigned_abs()).wrapping_add(slack);
         v.iter().fold(0u64, |sum, &x| sum.wrapping_add(part(x).wrapping_mul(part(x))))
     };
-    let [forward, right, down] = vectors.map(|v| v.map(|x| i64::from(x >> 14)));
-    let over = |x: i64| x.checked_div(i64::from(height)).unwrap_or(0);
+    let [forward, right, down] = vectors.map(|v| v.map(|x| x >> 14));
+    // Of seventeen bits times fifteen.
+    let over =
+        |x: i32, pixels: i32| x.wrapping_mul(pixels).checked_div(i32::from(height)).unwrap_or(0);
     // To a pixel beyond the edges.
-    let to_edge = |x: i64, pixels: u16| over(x.wrapping_mul(i64::from(pixels).wrapping_add(2)));
-    let (aside, down) = (right.map(|x| to_edge(x, width)), down.map(|x| to_edge(x, height)));
+    let to_edge = |x: i32, pixels: u16| over(x, i32::from(pixels).wrapping_add(2));
+    let (aside, down_to) = (right.map(|x| to_edge(x, width)), down.map(|x| to_edge(x, height)));
     let mut most = 0u64;
     for (left, up) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
         let corner = [0, 1, 2].map(|i| {
             forward[i]
                 .wrapping_add(aside[i].wrapping_mul(left))
-                .wrapping_add(down[i].wrapping_mul(up))
+                .wrapping_add(down_to[i].wrapping_mul(up))
         });
         most = most.max(square(corner));
     }
     // A step is longer only where there is one row.
     for vector in [right, down] {
-        most = most.max(square(vector.map(|x| over(x.wrapping_mul(2)))));
+        most = most.max(square(vector.map(|x| over(x, 2))));
     }
     // |v|² is below most·2²⁸, which is to be below 2⁶².
     let up = (most.leading_zeros() as i32 - 30) >> 1;

@@ -559,9 +559,12 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn aim_step(a: Aim, n: u16) -> Aim {
-        // Twice the longest needs a bit more.
-        let twice = i64::from(a.to_bits()) << 1;
-        Aim::from_bits(twice.checked_div(i64::from(n)).unwrap_or(0) as i32)
+        // By parts, since twice the longest needs a bit more, and a division of 64 bits is long.
+        let (a, n) = (a.to_bits(), i32::from(n));
+        let whole = a.checked_div(n).unwrap_or(0);
+        let rest = a.wrapping_sub(whole.wrapping_mul(n)).wrapping_mul(2);
+        let step = whole.wrapping_mul(2).wrapping_add(rest.checked_div(n).unwrap_or(0));
+        Aim::from_bits(step)
     }
 
     fn aims(vectors: [[Aim; 3]; 3], width: u16, height: u16) -> [[Aim; 3]; 3] {
