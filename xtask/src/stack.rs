@@ -18,7 +18,7 @@ use crate::{pico, pico2, setup, stm32};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Bytes of `Work` without and for each generation of rays, in either arithmetic.
-const WORK: [u64; 2] = [692, 48];
+const WORK: [u64; 2] = [1_352, 48];
 /// Bytes of a sample that a sampling remembers, and of a pixel in a row.
 const SAMPLE: u64 = 16;
 const PIXEL: u64 = 3;
