@@ -1,7 +1,7 @@
 //! The nearest hit along a ray.
 
 use super::meet::meet_any;
-use super::sight::{Ahead, are_few, each_ahead};
+use super::sight::{Ahead, CONES_FIRST, are_few, each_ahead};
 use crate::math::Arithmetic;
 use crate::octree::{Visitor, WalkStack};
 use crate::scene::uses::{self, each, has, has_others};
@@ -220,9 +220,17 @@ where
         }
         if clear {
             shapes.spheres.iter().for_each(|_| tally.test());
-        } else if sight.is_some() && are_few(&scene) {
+        } else if (sight.is_some() || !CONES_FIRST) && are_few(&scene) {
+            // Where cones don't come first there is one loop, known vantage or not: less code.
             each_ahead!(sight, shapes.spheres, &ray.direction, tally, |sphere, id| if id != left {
-                best.take(sphere.meet_likely::<USES>(ray, false, best.distance), id);
+                best.take(
+                    if CONES_FIRST {
+                        sphere.meet_likely::<USES>(ray, false, best.distance)
+                    } else {
+                        sphere.meet::<USES>(ray, &coarse, false, best.distance)
+                    },
+                    id,
+                );
             });
         } else {
             let mut id = 0;
