@@ -11,7 +11,7 @@ use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::{Place, surface_at};
 use super::nearest::{Hit, nearest};
-use super::sight::{Ahead, Vantage, are_few, may_be_few, pass_all};
+use super::sight::{Ahead, Vantage, are_few, knows_all, may_be_few, pass_all};
 use super::terms::Terms;
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
@@ -133,10 +133,13 @@ where
         nearest(self.scene, ray, A::FAR, Ahead::ANYTHING, &mut work.scratch.walk, tally)
     }
 
-    /// Whether no ray of a row meets a sphere, as far as that is worth knowing: where they are few.
+    /// Whether no ray of a row meets a sphere, as far as that is worth knowing: where they are few, and known to
+    /// stand in no tree.
     #[inline(always)]
     pub(crate) fn is_clear(&self, view: View<A>, row: Row<A>, width: u16) -> bool {
-        are_few(&self.scene) && pass_all(self.scene.shapes.spheres, view, row, width)
+        !has(USES, uses::TREE)
+            && are_few(&self.scene)
+            && pass_all(self.scene.shapes.spheres, view, row, width)
     }
 
     /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
@@ -432,13 +435,14 @@ where
         }
         // A sphere's surface is where rays come from that leave it; what the first plane mirrors of what the eye
         // sees comes from the eye's image.
-        let sphere =
-            if (hit.shape as usize) < scene.shapes.spheres.len() && A::is_near(hit.distance) {
-                Vantage::sphere(hit.shape)
-            } else {
-                Vantage::ANYWHERE
-            };
-        let image = hit.shape == scene.first_plane && path.depth == 1 && !is_bumped;
+        let known = seen && knows_all::<USES>();
+        let on_sphere = (hit.shape as usize) < scene.shapes.spheres.len();
+        let sphere = if known && on_sphere && A::is_near(hit.distance) {
+            Vantage::sphere(hit.shape)
+        } else {
+            Vantage::ANYWHERE
+        };
+        let image = known && hit.shape == scene.first_plane && path.depth == 1 && !is_bumped;
         let mirrored = if image { Vantage::IMAGE } else { sphere };
         let rules = &scene.parts.rules;
         path.depth += 1;
@@ -471,7 +475,7 @@ where
                             leaving: Leaving::through(hit.shape, &surface),
                         };
                         path.weight = weight;
-                        path.vantage = if seen { sphere } else { Vantage::ANYWHERE };
+                        path.vantage = sphere;
                         next = Some(RayKind::Transmission);
                     }
                 }
@@ -503,7 +507,7 @@ where
                 }
                 path.ray = outside;
                 path.weight = weight;
-                path.vantage = if seen { mirrored } else { Vantage::ANYWHERE };
+                path.vantage = mirrored;
                 next = Some(RayKind::Reflection);
             }
         }

@@ -187,11 +187,13 @@ impl<A: Arithmetic> Sights<A> {
         }
         let [own, image, spheres @ ..] = &mut self.from;
         own.look(scene, eye, (false, false));
-        if let Some(plane) = scene.parts.planes.first() {
-            image.look(scene, &plane.image(eye), (false, true));
-        }
-        for (number, sight) in spheres.iter_mut().enumerate() {
-            sight.look_from(scene, number);
+        if knows_all::<USES>() {
+            if let Some(plane) = scene.parts.planes.first() {
+                image.look(scene, &plane.image(eye), (false, true));
+            }
+            for (number, sight) in spheres.iter_mut().enumerate() {
+                sight.look_from(scene, number);
+            }
         }
         for (sight, light) in self.lights.iter_mut().zip(scene.parts.lights) {
             if let Source::Point { position } | Source::Spot { position, .. } = &light.source {
@@ -266,6 +268,13 @@ pub(super) fn pass_all<A: Arithmetic>(
 #[inline(always)]
 pub(super) const fn may_be_few<const USES: u64>() -> bool {
     !has(USES, uses::TREE) || has(USES, uses::MANY_SPHERES)
+}
+
+/// Whether more is known than what is seen from the eye and the lights: in scenes of a type without a tree. Where
+/// there may be one, all this would be code for scenes that have none.
+#[inline(always)]
+pub(super) const fn knows_all<const USES: u64>() -> bool {
+    !has(USES, uses::TREE)
 }
 
 /// Whether all spheres have cones: they are few, and nothing but their list finds them.
