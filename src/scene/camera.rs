@@ -155,7 +155,10 @@ impl<A: Arithmetic> View<A> {
     pub fn new(camera: &Camera<A>, width: u16, height: u16) -> Self {
         let vectors = [camera.forward, camera.right, camera.down];
         let [forward, right, down] = A::aims(vectors, width, height);
-        let step = |v: [A::Aim; 3]| v.map(|a| A::aim_step(a, height));
+        let step = |v: [A::Aim; 3]| {
+            let f = |a| A::aim_step(a, height);
+            [f(v[0]), f(v[1]), f(v[2])]
+        };
         let (across, step_down) = (step(right), step(down));
         // half the width, in pixels and 1/256 of them
         let (whole, part) = (i32::from(width) >> 1, (i32::from(width) & 1) << 7);

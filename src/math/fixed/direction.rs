@@ -95,34 +95,45 @@ pub(super) fn aims(vectors: &[[i32; 3]; 3], width: u16, height: u16) -> [[i32; 3
     // In steps of 2⁻¹²: three squares fit 64 bits. Each number is rounded, what lies aside by up to one for
     // each height in the width.
     let slack = u64::from(width.checked_div(height).unwrap_or(0)).wrapping_add(4);
-    let square = |v: [i32; 3]| {
-        let part = |x: i32| u64::from(x.unsigned_abs()).wrapping_add(slack);
-        v.iter().fold(0u64, |sum, &x| sum.wrapping_add(part(x).wrapping_mul(part(x))))
+    let square = |x: i32| {
+        let part = u64::from(x.unsigned_abs()).wrapping_add(slack);
+        part.wrapping_mul(part)
     };
-    let [forward, right, down] = vectors.map(|v| v.map(|x| x >> 14));
     // Of seventeen bits times fifteen.
     let over =
         |x: i32, pixels: i32| x.wrapping_mul(pixels).checked_div(i32::from(height)).unwrap_or(0);
-    // To a pixel beyond the edges.
-    let to_edge = |x: i32, pixels: u16| over(x, i32::from(pixels).wrapping_add(2));
-    let (aside, down_to) = (right.map(|x| to_edge(x, width)), down.map(|x| to_edge(x, height)));
-    let mut most = 0u64;
-    for (left, up) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
-        let corner = [0, 1, 2].map(|i| {
-            forward[i]
-                .wrapping_add(aside[i].wrapping_mul(left))
-                .wrapping_add(down_to[i].wrapping_mul(up))
-        });
-        most = most.max(square(corner));
+    let [forward, right, down] = vectors;
+    // Corners, to a pixel beyond the edges; and steps, which are longer only where there is one row.
+    let mut squares = [0u64; 6];
+    for i in 0..3 {
+        let (right, down) = (right[i] >> 14, down[i] >> 14);
+        let aside = over(right, i32::from(width).wrapping_add(2));
+        let below = over(down, i32::from(height).wrapping_add(2));
+        let ahead = forward[i] >> 14;
+        let (left, far) = (ahead.wrapping_sub(aside), ahead.wrapping_add(aside));
+        let all = [
+            left.wrapping_sub(below),
+            left.wrapping_add(below),
+            far.wrapping_sub(below),
+            far.wrapping_add(below),
+            over(right, 2),
+            over(down, 2),
+        ];
+        for (sum, x) in squares.iter_mut().zip(all) {
+            *sum = sum.wrapping_add(square(x));
+        }
     }
-    // A step is longer only where there is one row.
-    for vector in [right, down] {
-        most = most.max(square(vector.map(|x| over(x, 2))));
+    let mut most = 0u64;
+    for square in squares {
+        most = if square > most { square } else { most };
     }
     // |v|² is below most·2²⁸, which is to be below 2⁶².
     let up = (most.leading_zeros() as i32 - 30) >> 1;
-    let scaled = |x: i32| if up >= 0 { x << (up & 31) } else { x >> (-up & 31) };
-    vectors.map(|v| v.map(scaled))
+    let mut scaled = *vectors;
+    for x in scaled.as_flattened_mut() {
+        *x = if up >= 0 { *x << (up & 31) } else { *x >> (-up & 31) };
+    }
+    scaled
 }
 
 /// See `Arithmetic::normalize`.

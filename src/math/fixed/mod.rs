@@ -568,8 +568,11 @@ impl Arithmetic for Fixed {
     }
 
     fn aims(vectors: [[Aim; 3]; 3], width: u16, height: u16) -> [[Aim; 3]; 3] {
-        let bits = vectors.map(|v| v.map(Aim::to_bits));
-        direction::aims(&bits, width, height).map(|v| v.map(Aim::from_bits))
+        let bits = |v: &[Aim; 3]| [v[0].to_bits(), v[1].to_bits(), v[2].to_bits()];
+        let [f, r, d] = &vectors;
+        let [f, r, d] = direction::aims(&[bits(f), bits(r), bits(d)], width, height);
+        let aim = |v: [i32; 3]| [Aim::from_bits(v[0]), Aim::from_bits(v[1]), Aim::from_bits(v[2])];
+        [aim(f), aim(r), aim(d)]
     }
 
     #[inline(always)]
