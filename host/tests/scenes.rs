@@ -49,8 +49,6 @@ fn chips_show_the_same() {
         // In fixed point an endless plane ends where the range does, a row or so below the
         // horizon; the showcase loses most by it.
         let fixed = if text.contains("[[plane]]") { 26.0 } else { 36.0 };
-        // Rounding decides where an irradiance cache has its records: the picture moves by more than it.
-        let fixed = if text.contains("[indirect]") { 35.0f64.min(fixed) } else { fixed };
         for (arith, least) in [("f32", 45.0), ("fixed", fixed)] {
             let picture = render(&name, &["--sampling", "grid:2", "--arith", arith]);
             let db = decibels(&reference, &picture);

@@ -415,7 +415,7 @@ macro_rules! operations {
                         let long = r.between(0.5, 3.0);
                         let v = r.direction().map(|x| make::aim(x * long).unwrap());
                         let vf = v.map(Into::<f64>::into);
-                        sample(A::sight(&v)[0], vf[0] / norm(vf), 1.0, UNIT)
+                        sample(A::sight(&v, A::rise(&v))[0], vf[0] / norm(vf), 1.0, UNIT)
                     }
                     "rotate" | "turn" => {
                         let matrix = turning(r);

@@ -288,9 +288,10 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     /// A ray at low precision.
     fn coarse(o: &[Self::Length; 3], d: &[Self::Unit; 3]) -> Self::Coarse;
     /// Whether the ray may hit the sphere nearer than `limit`: cheap, and never wrong when it
-    /// says no.
+    /// says no. `NEAR` asks in the order that is quickest for spheres near the ray's way, like those that a walk
+    /// through a tree finds: few lie beyond `limit`, or behind.
     #[inline(always)]
-    fn may_hit(
+    fn may_hit<const NEAR: bool>(
         _ray: &Self::Coarse,
         _center: &[Self::Length; 3],
         _r: &Self::Radius,
@@ -298,18 +299,6 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     ) -> bool {
         true
     }
-    /// The same answer, for a sphere near the ray's way, like those that a walk through a tree finds: few lie
-    /// beyond `limit`, or behind.
-    #[inline(always)]
-    fn may_hit_near(
-        _ray: &Self::Coarse,
-        _center: &[Self::Length; 3],
-        _r: &Self::Radius,
-        _limit: Self::Length,
-    ) -> bool {
-        true
-    }
-
     /// Whether the line of a ray may come within `r` of the line through `p` along `axis`: cheap, and
     /// never wrong when it says no.
     #[inline(always)]
@@ -464,13 +453,12 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
 
     /// `base + step·(n + fraction/256)`, `fraction` in 0 to 255.
     fn aim(base: Self::Aim, step: Self::Aim, n: i32, fraction: i32) -> Self::Aim;
-    /// `2·a/n`, the step from pixel to pixel of n; null for n = 0.
-    fn aim_step(a: Self::Aim, n: u16) -> Self::Aim;
-    /// A camera's vectors forward, right and down for a picture of this size, all by one factor, so that
-    /// [`sight`](Self::sight) is most exact.
-    fn aims(vectors: [[Self::Aim; 3]; 3], width: u16, height: u16) -> [[Self::Aim; 3]; 3];
-    /// The unit vector along a sum of [`aims`](Self::aims).
-    fn sight(v: &[Self::Aim; 3]) -> [Self::Unit; 3];
+    /// `a/n`; `a` for n = 0.
+    fn aim_over(a: Self::Aim, n: u32) -> Self::Aim;
+    /// How large a camera's view vector is, for [`sight`](Self::sight).
+    fn rise(v: &[Self::Aim; 3]) -> u8;
+    /// The unit vector along a camera's view vector. It takes fewer steps for one as large as `rise` says.
+    fn sight(v: &[Self::Aim; 3], rise: u8) -> [Self::Unit; 3];
 
     /// What a ray of the speed `d ≥ 0` takes for a length along an axis.
     fn pace(d: Self::Unit) -> Self::Pace;

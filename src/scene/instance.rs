@@ -123,7 +123,7 @@ impl<'a, A: Arithmetic> Instance<'a, A> {
         coarse: &A::Coarse,
         limit: A::Length,
     ) -> Option<Inside<A>> {
-        if !A::may_hit(coarse, &self.center, &self.radius, limit) {
+        if !A::may_hit::<false>(coarse, &self.center, &self.radius, limit) {
             return None;
         }
         let c = sub(&self.center, &ray.origin);

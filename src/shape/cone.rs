@@ -229,7 +229,7 @@ impl<A: Arithmetic> Cone<A> {
 
 impl<A: Arithmetic> Convex<A> for Cone<A> {
     fn chord(&self, ray: &Ray<A>, coarse: &A::Coarse) -> Option<Chord<A>> {
-        if !A::may_hit(coarse, &self.middle, &self.bound, A::FAR) {
+        if !A::may_hit::<false>(coarse, &self.middle, &self.bound, A::FAR) {
             return None;
         }
         let c = sub(&self.middle, &ray.origin);
@@ -297,7 +297,7 @@ impl<A: Arithmetic> Shape<A> for Open<'_, Cone<A>> {
         limit: A::Length,
     ) -> Option<Meeting<A>> {
         let it = self.0;
-        if !A::may_hit(coarse, &it.middle, &it.bound, limit) {
+        if !A::may_hit::<false>(coarse, &it.middle, &it.bound, limit) {
             return None;
         }
         let c = sub(&it.middle, &ray.origin);

@@ -117,7 +117,7 @@ impl<A: Arithmetic> Sphere<A> {
 
 impl<A: Arithmetic> Convex<A> for Sphere<A> {
     fn chord(&self, ray: &Ray<A>, coarse: &A::Coarse) -> Option<Chord<A>> {
-        if !A::may_hit(coarse, &self.center, &self.radius, A::FAR) {
+        if !A::may_hit::<false>(coarse, &self.center, &self.radius, A::FAR) {
             return None;
         }
         let c = sub(&self.center, &ray.origin);
@@ -147,16 +147,16 @@ impl<A: Arithmetic> Sphere<A> {
         inwards: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        if !A::may_hit(coarse, &self.center, &self.radius, limit) {
+        if !A::may_hit::<false>(coarse, &self.center, &self.radius, limit) {
             return None;
         }
         self.meet_likely::<USES>(ray, inwards, limit)
     }
 
-    /// Whether a ray that passes near may meet it: see [`Arithmetic::may_hit_near`].
+    /// Whether a ray that passes near may meet it: see [`Arithmetic::may_hit`].
     #[inline(always)]
     pub(crate) fn may_be_met(&self, coarse: &A::Coarse, limit: A::Length) -> bool {
-        A::may_hit_near(coarse, &self.center, &self.radius, limit)
+        A::may_hit::<true>(coarse, &self.center, &self.radius, limit)
     }
 
     /// The same for a ray that probably meets it.
@@ -195,7 +195,7 @@ impl<A: Arithmetic> Sphere<A> {
         inwards: bool,
         limit: A::Length,
     ) -> bool {
-        A::may_hit(coarse, &self.center, &self.radius, limit)
+        A::may_hit::<false>(coarse, &self.center, &self.radius, limit)
             && self.blocks_likely::<USES>(ray, inwards, limit)
     }
 
@@ -253,7 +253,9 @@ impl<A: Arithmetic> Shape<A> for Sphere<A> {
         left: bool,
         limit: A::Length,
     ) -> Option<Meeting<A>> {
-        if !A::may_hit(coarse, &self.center, &self.radius, limit) || left && !ray.leaving.inwards {
+        if !A::may_hit::<false>(coarse, &self.center, &self.radius, limit)
+            || left && !ray.leaving.inwards
+        {
             return None;
         }
         self.meet_likely::<{ uses::ALL }>(ray, left, limit)

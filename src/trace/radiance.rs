@@ -137,7 +137,7 @@ where
     /// stand in no tree.
     #[inline(always)]
     pub(crate) fn is_clear(&self, view: View<A>, row: Row<A>, width: u16) -> bool {
-        !has(USES, uses::TREE)
+        knows_all::<USES>()
             && are_few(&self.scene)
             && pass_all(self.scene.shapes.spheres, view, row, width)
     }

@@ -45,6 +45,29 @@ impl Vantage {
 /// cone, where registers are few. Elsewhere a sphere's cone comes right before its test.
 pub(super) const CONES_FIRST: bool = cfg!(narrow_multiply);
 
+/// What rays have to do with a point.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Rays {
+    /// They start there.
+    Start,
+    /// A plane has mirrored them: they would have started at this image of the eye.
+    Mirrored,
+    /// They end there.
+    End,
+}
+
+/// Whether a sphere, so far away, is out of reach for rays that a plane beyond the horizon mirrors. Those start at points
+/// that have been moved, at half that distance or more from the image, and lead away from it.
+fn ends_before_horizon<A: Arithmetic>(way: &[A::Length; 3], radius: A::Length) -> bool {
+    let whole = sum_of_sizes::<A>(way) + radius;
+    whole + whole <= A::HORIZON
+}
+
+/// No less than the length of a vector.
+fn sum_of_sizes<A: Arithmetic>(v: &[A::Length; 3]) -> A::Length {
+    v.iter().fold(A::NO_LENGTH, |sum, &x| if x < A::NO_LENGTH { sum - x } else { sum + x })
+}
+
 /// What can be seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sight<A: Arithmetic> {
@@ -57,20 +80,23 @@ impl<A: Arithmetic> Sight<A> {
     /// Anything, in any direction.
     const ANY: Self = Self { cones: [A::EVERY_DIRECTION; FEW], outside: 0 };
 
-    /// Looks from a point: for rays that start there, or, `towards` it, for rays that end there. `blurred`:
-    /// they may miss it by as much as [`direction_cone`](Arithmetic::direction_cone) allows.
+    /// Looks from a point.
     fn look<const USES: u64>(
         &mut self,
         scene: &Scene<'_, A, USES>,
         point: &[A::Length; 3],
-        (towards, blurred): (bool, bool),
+        rays: Rays,
     ) {
         *self = Self::ANY;
         let mut bit = 1;
         for (cone, sphere) in self.cones.iter_mut().zip(scene.shapes.spheres) {
             let center = sphere.center();
-            let way = if towards { sub(point, &center) } else { sub(&center, point) };
-            if let Some(found) = A::direction_cone(&way, sphere.bound(), blurred) {
+            let way = if rays == Rays::End { sub(point, &center) } else { sub(&center, point) };
+            let is_known =
+                rays != Rays::Mirrored || ends_before_horizon::<A>(&way, sphere.radius());
+            if is_known
+                && let Some(found) = A::direction_cone(&way, sphere.bound(), rays != Rays::Start)
+            {
                 *cone = found;
                 // One that shows its inside alone hides nothing from within.
                 self.outside |= if sphere.shows_inside_only::<USES>() { 0 } else { bit };
@@ -186,10 +212,10 @@ impl<A: Arithmetic> Sights<A> {
             return;
         }
         let [own, image, spheres @ ..] = &mut self.from;
-        own.look(scene, eye, (false, false));
+        own.look(scene, eye, Rays::Start);
         if knows_all::<USES>() {
             if let Some(plane) = scene.parts.planes.first() {
-                image.look(scene, &plane.image(eye), (false, true));
+                image.look(scene, &plane.image(eye), Rays::Mirrored);
             }
             for (number, sight) in spheres.iter_mut().enumerate() {
                 sight.look_from(scene, number);
@@ -197,7 +223,7 @@ impl<A: Arithmetic> Sights<A> {
         }
         for (sight, light) in self.lights.iter_mut().zip(scene.parts.lights) {
             if let Source::Point { position } | Source::Spot { position, .. } = &light.source {
-                sight.look(scene, position, (true, true));
+                sight.look(scene, position, Rays::End);
             }
         }
     }
@@ -253,10 +279,7 @@ pub(super) fn pass_all<A: Arithmetic>(
         let height = A::project(&way, &normal);
         // The normal and its length are wrong by less than six steps of a direction, and the rays by less
         // than one: eight times what rounding takes from a way as long as this.
-        let sum = way
-            .iter()
-            .fold(A::NO_LENGTH, |sum, &x| if x < A::NO_LENGTH { sum - x } else { sum + x });
-        let slack = A::clearance(&way, sum);
+        let slack = A::clearance(&way, sum_of_sizes::<A>(&way));
         let slack = slack + slack;
         let slack = slack + slack;
         let reach = A::scale(sphere.radius(), length) + slack + slack;

@@ -5,10 +5,16 @@ use super::{FixedEta, FixedInverse, Unit};
 use crate::math::root::{self, reciprocal_root_q29, sqrt_u32};
 use ::fixed::types::I16F16;
 
+/// Which bits the largest magnitude of three integers has.
+#[inline(always)]
+fn largest(v: &[i32; 3]) -> u32 {
+    magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2])
+}
+
 /// Three integers shifted so that the largest magnitude is in 2²⁹ to 2³⁰, and by how much.
 #[inline(always)]
 fn align(v: &[i32; 3]) -> ([i32; 3], i32) {
-    let (_, z) = root::normalize(magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2]) | 1);
+    let (_, z) = root::normalize(largest(v) | 1);
     let up = z as i32 - 2;
     if up >= 0 {
         let up = up & 31;
@@ -29,7 +35,7 @@ fn inverse_root(s: u32) -> (u32, u32, u32) {
     (reciprocal_root_q29(m), half, m)
 }
 
-/// `t·u / 2²¹` to the nearest, for |t| ≤ 2²³ and |u| ≤ 2¹⁷.
+/// `t·u / 2²¹` to the nearest, for |t| ≤ 2²² and |u| ≤ 2¹⁷.
 #[inline(always)]
 fn rounded_product(t: i32, u: i32) -> i32 {
     let high = (t >> 13).wrapping_mul(u);
@@ -37,10 +43,11 @@ fn rounded_product(t: i32, u: i32) -> i32 {
     high.wrapping_add(low).wrapping_add(1 << 7) >> 8
 }
 
-/// The sum of the squares of three integers whose length is below 2³¹, over 2³⁰.
+/// Of three integers of which the largest is in 2²⁹ to 2³⁰: 1/√s as [`inverse_root`] gives it, s being the
+/// sum of their squares over 2³⁰.
 #[inline(always)]
-fn square_of(x: &[i32; 3]) -> u32 {
-    // Sixteen bits a component, so that three squares fit a word, and five more for the
+fn inverse_length(x: &[i32; 3]) -> (u32, u32, u32) {
+    // Fifteen bits a component, so that three squares fit a word, and five more for the
     // first-order correction: (32h + l)² ≈ 2¹⁰(h² + hl/16).
     let (mut square, mut correction) = (0u32, 0i32);
     for x in x {
@@ -48,14 +55,14 @@ fn square_of(x: &[i32; 3]) -> u32 {
         square = square.wrapping_add(high.wrapping_mul(high) as u32);
         correction = correction.wrapping_add(high.wrapping_mul(low));
     }
-    square.wrapping_add((correction >> 4) as u32)
+    inverse_root(square.wrapping_add((correction >> 4) as u32))
 }
 
 /// The unit vector along three integers, to 17 bits, and their length.
 #[inline(always)]
 pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
     let (x, up) = align(v);
-    let (y_q29, half, m) = inverse_root(square_of(&x));
+    let (y_q29, half, m) = inverse_length(&x);
     // x·Y·2^(half − 14) in Q17, as x·(Y·2^half in Q15)/2²⁹
     let y = (y_q29 >> (14 - half)) as i32;
     let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
@@ -63,77 +70,38 @@ pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
     ([unit(x[0]), unit(x[1]), unit(x[2])], length)
 }
 
+/// See `Arithmetic::rise`: by how much [`align`] shifts the vector to the left.
+pub(super) fn rise(v: &[i32; 3]) -> u8 {
+    let (_, up) = align(v);
+    if up > 0 { up as u8 } else { 0 }
+}
+
 /// See `Arithmetic::sight`: to the nearest, since a floor would turn every ray by half a step and lower
 /// the horizon.
 #[inline(always)]
-pub(super) fn sight(v: &[i32; 3]) -> [Unit; 3] {
-    let square = square_of(v);
-    // Less than half as long as the longest of the picture.
-    if square < 1 << 28 {
-        return aligned_sight(*v);
+pub(super) fn sight(v: &[i32; 3], rise: u8) -> [Unit; 3] {
+    let up = u32::from(rise) & 31;
+    if largest(v) >> (29u32.wrapping_sub(up) & 31) == 1 {
+        rounded(&[v[0] << up, v[1] << up, v[2] << up])
+    } else {
+        aligned_sight(*v)
     }
-    sight_of_square(v, square)
 }
 
+/// The same for any.
+#[inline(never)]
+fn aligned_sight(v: [i32; 3]) -> [Unit; 3] {
+    rounded(&align(&v).0)
+}
+
+/// The unit vector along three integers that are aligned.
 #[inline(always)]
-fn sight_of_square(x: &[i32; 3], square: u32) -> [Unit; 3] {
-    let (y_q29, half, _) = inverse_root(square);
+fn rounded(x: &[i32; 3]) -> [Unit; 3] {
+    let (y_q29, half, _) = inverse_length(x);
     // As in `unit_along`.
     let y = (y_q29 >> (14 - half)) as i32;
     let unit = |x: i32| Unit::from_bits(rounded_product(x >> 8, y));
     [unit(x[0]), unit(x[1]), unit(x[2])]
-}
-
-#[inline(never)]
-fn aligned_sight(v: [i32; 3]) -> [Unit; 3] {
-    let (x, _) = align(&v);
-    sight_of_square(&x, square_of(&x))
-}
-
-/// See `Arithmetic::aims`. The longest direction towards the picture, a corner's, comes between 2³⁰ and 2³¹ steps.
-pub(super) fn aims(vectors: &[[i32; 3]; 3], width: u16, height: u16) -> [[i32; 3]; 3] {
-    // In steps of 2⁻¹²: three squares fit 64 bits. Each number is rounded, what lies aside by up to one for
-    // each height in the width.
-    let slack = u64::from(width.checked_div(height).unwrap_or(0)).wrapping_add(4);
-    let square = |x: i32| {
-        let part = u64::from(x.unsigned_abs()).wrapping_add(slack);
-        part.wrapping_mul(part)
-    };
-    // Of seventeen bits times fifteen.
-    let over =
-        |x: i32, pixels: i32| x.wrapping_mul(pixels).checked_div(i32::from(height)).unwrap_or(0);
-    let [forward, right, down] = vectors;
-    // Corners, to a pixel beyond the edges; and steps, which are longer only where there is one row.
-    let mut squares = [0u64; 6];
-    for i in 0..3 {
-        let (right, down) = (right[i] >> 14, down[i] >> 14);
-        let aside = over(right, i32::from(width).wrapping_add(2));
-        let below = over(down, i32::from(height).wrapping_add(2));
-        let ahead = forward[i] >> 14;
-        let (left, far) = (ahead.wrapping_sub(aside), ahead.wrapping_add(aside));
-        let all = [
-            left.wrapping_sub(below),
-            left.wrapping_add(below),
-            far.wrapping_sub(below),
-            far.wrapping_add(below),
-            over(right, 2),
-            over(down, 2),
-        ];
-        for (sum, x) in squares.iter_mut().zip(all) {
-            *sum = sum.wrapping_add(square(x));
-        }
-    }
-    let mut most = 0u64;
-    for square in squares {
-        most = if square > most { square } else { most };
-    }
-    // |v|² is below most·2²⁸, which is to be below 2⁶².
-    let up = (most.leading_zeros() as i32 - 30) >> 1;
-    let mut scaled = *vectors;
-    for x in scaled.as_flattened_mut() {
-        *x = if up >= 0 { *x << (up & 31) } else { *x >> (-up & 31) };
-    }
-    scaled
 }
 
 /// See `Arithmetic::normalize`.

@@ -273,18 +273,13 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn may_hit(ray: &FixedCoarse, center: &[I16F16; 3], r: &FixedRadius, limit: I16F16) -> bool {
-        round::may_hit::<false>(ray, center, r, limit)
-    }
-
-    #[inline(always)]
-    fn may_hit_near(
+    fn may_hit<const NEAR: bool>(
         ray: &FixedCoarse,
         center: &[I16F16; 3],
         r: &FixedRadius,
         limit: I16F16,
     ) -> bool {
-        round::may_hit::<true>(ray, center, r, limit)
+        round::may_hit::<NEAR>(ray, center, r, limit)
     }
 
     #[inline(always)]
@@ -558,26 +553,18 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn aim_step(a: Aim, n: u16) -> Aim {
-        // By parts, since twice the longest needs a bit more, and a division of 64 bits is long.
-        let (a, n) = (a.to_bits(), i32::from(n));
-        let whole = a.checked_div(n).unwrap_or(0);
-        let rest = a.wrapping_sub(whole.wrapping_mul(n)).wrapping_mul(2);
-        let step = whole.wrapping_mul(2).wrapping_add(rest.checked_div(n).unwrap_or(0));
-        Aim::from_bits(step)
+    fn aim_over(a: Aim, n: u32) -> Aim {
+        let bits = i64::from(a.to_bits()).checked_div(i64::from(n));
+        bits.map_or(a, |bits| Aim::from_bits(bits as i32))
     }
 
-    fn aims(vectors: [[Aim; 3]; 3], width: u16, height: u16) -> [[Aim; 3]; 3] {
-        let bits = |v: &[Aim; 3]| [v[0].to_bits(), v[1].to_bits(), v[2].to_bits()];
-        let [f, r, d] = &vectors;
-        let [f, r, d] = direction::aims(&[bits(f), bits(r), bits(d)], width, height);
-        let aim = |v: [i32; 3]| [Aim::from_bits(v[0]), Aim::from_bits(v[1]), Aim::from_bits(v[2])];
-        [aim(f), aim(r), aim(d)]
+    fn rise(v: &[Aim; 3]) -> u8 {
+        direction::rise(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()])
     }
 
     #[inline(always)]
-    fn sight(v: &[Aim; 3]) -> [Unit; 3] {
-        direction::sight(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()])
+    fn sight(v: &[Aim; 3], rise: u8) -> [Unit; 3] {
+        direction::sight(&[v[0].to_bits(), v[1].to_bits(), v[2].to_bits()], rise)
     }
 
     #[inline(always)]

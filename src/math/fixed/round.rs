@@ -94,8 +94,7 @@ pub(super) fn ahead(r: &FixedRadius, c: &[I16F16; 3], t: I16F16, d: &[Unit; 3]) 
     I16F16::from_bits((sum >> 15) << s)
 }
 
-/// See `Arithmetic::may_hit` and, where the ray passes near, `Arithmetic::may_hit_near`: the order in which
-/// the same is asked.
+/// See `Arithmetic::may_hit`.
 #[inline(always)]
 pub(super) fn may_hit<const NEAR: bool>(
     ray: &FixedCoarse,

@@ -522,16 +522,16 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn aim_step(a: $f, n: u16) -> $f {
-                if n == 0 { 0.0 } else { (a + a) / $f::from(n) }
+            fn aim_over(a: $f, n: u32) -> $f {
+                if n == 0 { a } else { a / n as $f }
             }
 
-            fn aims(vectors: [[$f; 3]; 3], _: u16, _: u16) -> [[$f; 3]; 3] {
-                vectors
+            fn rise(_: &[$f; 3]) -> u8 {
+                0
             }
 
             #[inline(always)]
-            fn sight(v: &[$f; 3]) -> [$f; 3] {
+            fn sight(v: &[$f; 3], _: u8) -> [$f; 3] {
                 Self::normalize(v).0
             }
 
