@@ -1,5 +1,6 @@
 //! Bands: whole rows as bytes, the most significant first, as SPI displays take them by DMA.
 
+use super::renderer::Asked;
 use super::{Output, Pixel, Renderer, Settings};
 use crate::math::Arithmetic;
 use crate::scene::{Scene, SceneRef};
@@ -32,9 +33,8 @@ where
             let row = self.row(y);
             let mut ready = false;
             for (x, bytes) in (0..width).zip(line.chunks_exact_mut(P::BYTES)) {
-                let columns = (0, width);
-                let traced =
-                    self.traced::<{ call_site::BAND }>(&mut sparse, &row, x, y, columns, tone);
+                let asked = Asked { row: &row, x, y, columns: (0, width) };
+                let traced = self.traced::<{ call_site::BAND }>(&mut sparse, asked, tone);
                 let Some(values) = traced else {
                     ready = true;
                     break;

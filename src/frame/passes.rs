@@ -9,6 +9,7 @@
 //!
 //! The pixels live on the display alone. What is remembered is where the render stands.
 
+use super::renderer::Asked;
 use super::{FrameError, Output, Pixel, Renderer, Sampling, Settings};
 use crate::math::Arithmetic;
 use crate::scene::{Scene, SceneRef};
@@ -138,15 +139,9 @@ where
                 let row = self.view.row(y, 128);
                 let values = if passes.side == 0 {
                     let mut sparse = self.sparse.take();
-                    let columns = (begin, columns.end);
-                    let values = self.values::<{ call_site::ANY }>(
-                        &mut sparse,
-                        &row,
-                        x,
-                        y,
-                        columns,
-                        &output.tone,
-                    );
+                    let asked = Asked { row: &row, x, y, columns: (begin, columns.end) };
+                    let values =
+                        self.values::<{ call_site::ANY }>(&mut sparse, asked, &output.tone);
                     self.sparse = sparse;
                     values
                 } else {

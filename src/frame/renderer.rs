@@ -20,6 +20,18 @@ pub(super) struct Remembered {
     pub(super) columns: (u16, u16),
 }
 
+/// A pixel that is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'r, A: Arithmetic> {
+    /// The rays through the centres of its row.
+    pub(super) row: &'r Row<A>,
+    pub(super) x: u16,
+    pub(super) y: u16,
+    /// The columns that are asked for in this row, the first and the one behind the last, one after the
+    /// other.
+    pub(super) columns: (u16, u16),
+}
+
 /// Renders one frame of a scene, row by row.
 ///
 /// Rows may be asked for in any order and as often as one likes, each gives the same radiances;
@@ -151,8 +163,8 @@ where
         let tone = &output.tone;
         let mut ready = false;
         for (x, pixel) in (0..width).zip(pixels.iter_mut()) {
-            let columns = (0, width);
-            let traced = self.traced::<{ call_site::LINE }>(&mut sparse, &row, x, y, columns, tone);
+            let asked = Asked { row: &row, x, y, columns: (0, width) };
+            let traced = self.traced::<{ call_site::LINE }>(&mut sparse, asked, tone);
             let Some(values) = traced else {
                 ready = true;
                 break;
@@ -173,25 +185,21 @@ where
         Sparse::pixels_of(Sample::words(self.samples))
     }
 
-    /// The display values of the pixel at (x, y), by whatever sampling; `columns` as of
-    /// [`sampled`](Self::sampled).
+    /// The display values of a pixel, by whatever sampling.
     #[inline(always)]
     pub(super) fn values<const SITE: u8>(
         &mut self,
         sparse: &mut Sparse,
-        row: &Row<A>,
-        x: u16,
-        y: u16,
-        columns: (u16, u16),
+        asked: Asked<'_, A>,
         tone: &Tone,
     ) -> [u16; 3] {
         let is_sparse = matches!(self.settings.sampling, Sampling::Sparse { .. });
-        let traced = if has(USES, uses::SPARSE) && is_sparse && x != columns.0 {
+        let traced = if has(USES, uses::SPARSE) && is_sparse && asked.x != asked.columns.0 {
             None
         } else {
-            self.traced::<SITE>(sparse, row, x, y, columns, tone)
+            self.traced::<SITE>(sparse, asked, tone)
         };
-        traced.unwrap_or_else(|| Sparse::pixel(x, Sample::words(self.samples)))
+        traced.unwrap_or_else(|| Sparse::pixel(asked.x, Sample::words(self.samples)))
     }
 
     /// The same by any sampling but the sparse; by sparse sampling, makes the row of pixels ready and says
@@ -200,30 +208,22 @@ where
     pub(super) fn traced<const SITE: u8>(
         &mut self,
         sparse: &mut Sparse,
-        row: &Row<A>,
-        x: u16,
-        y: u16,
-        columns: (u16, u16),
+        asked: Asked<'_, A>,
         tone: &Tone,
     ) -> Option<[u16; 3]> {
         let sampling = self.settings.sampling;
         if has(USES, uses::SPARSE) && matches!(sampling, Sampling::Center | Sampling::Sparse { .. })
         {
-            self.sparse::<SITE>(sparse, row, x, y, columns, tone)
+            self.sparse::<SITE>(sparse, asked, tone)
         } else {
-            Some(tone.values::<A>(&self.seen::<SITE>(row, x, y, columns)))
+            Some(tone.values::<A>(&self.seen::<SITE>(asked)))
         }
     }
 
-    /// The radiance of the pixel at (x, y), by any sampling but the sparse.
+    /// The radiance of a pixel, by any sampling but the sparse.
     #[inline(always)]
-    pub(super) fn seen<const SITE: u8>(
-        &mut self,
-        row: &Row<A>,
-        x: u16,
-        y: u16,
-        columns: (u16, u16),
-    ) -> Rgb<A::Radiance> {
+    pub(super) fn seen<const SITE: u8>(&mut self, asked: Asked<'_, A>) -> Rgb<A::Radiance> {
+        let Asked { row, x, y, columns } = asked;
         let center = matches!(self.settings.sampling, Sampling::Center | Sampling::Sparse { .. });
         if !uses::has_samplings(USES & !uses::SPARSE) || center {
             self.trace::<SITE>(row, x, 128)
@@ -238,13 +238,11 @@ where
     fn sparse<const SITE: u8>(
         &mut self,
         sparse: &mut Sparse,
-        row: &Row<A>,
-        x: u16,
-        y: u16,
-        columns: (u16, u16),
+        asked: Asked<'_, A>,
         tone: &Tone,
     ) -> Option<[u16; 3]> {
         let every = self.settings.sampling == Sampling::Center;
+        let Asked { row, x, y, columns } = asked;
         let mut row = *row;
         loop {
             let (mut at_x, mut at_y) = (x, y);
@@ -261,15 +259,13 @@ where
             let (radiance, rays) = if uses::has_samplings(USES & !uses::SPARSE) {
                 // As in `trace`.
                 let mut watch = Watch::<T>::new(tally);
-                let seen = self.tracer.seen::<{ call_site::ANY }, _, _>(
-                    (ray, row.clear),
-                    self.work,
-                    &mut watch,
-                );
+                let seen = self
+                    .tracer
+                    .seen::<{ call_site::ANY }, _, _>(ray, row.clear, self.work, &mut watch);
                 (seen, watch.rays())
             } else {
                 let mut watch = Watch::<T, false>::new(tally);
-                let seen = self.tracer.seen::<SITE, _, _>((ray, row.clear), self.work, &mut watch);
+                let seen = self.tracer.seen::<SITE, _, _>(ray, row.clear, self.work, &mut watch);
                 (seen, watch.rays())
             };
             let values = tone.values::<A>(&radiance);
@@ -311,19 +307,15 @@ where
         if has(USES, uses::ADAPTIVE) {
             // As in `radiance`.
             let mut watch = Watch::<T>::new(&mut self.tally);
-            self.tracer.seen::<{ call_site::ANY }, _, _>((ray, row.clear), self.work, &mut watch)
+            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, row.clear, self.work, &mut watch)
         } else if uses::has_samplings(USES) {
-            self.tracer.seen::<{ call_site::ANY }, _, _>(
-                (ray, row.clear),
-                self.work,
-                &mut self.tally,
-            )
+            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, row.clear, self.work, &mut self.tally)
         } else {
             // The renderer isn't lent to what is out of line where nothing is counted: so the compiler knows
             // what stands in it, the scene above all.
             let mut nothing = T::NOTHING;
             let tally = nothing.as_mut().unwrap_or(&mut self.tally);
-            self.tracer.seen::<SITE, _, _>((ray, row.clear), self.work, tally)
+            self.tracer.seen::<SITE, _, _>(ray, row.clear, self.work, tally)
         }
     }
 
@@ -350,7 +342,7 @@ where
         self.prepare(&row, x, right);
         let mut watch = Watch::<T>::new(&mut self.tally);
         let radiance =
-            self.tracer.seen::<{ call_site::ANY }, _, _>((ray, row.clear), self.work, &mut watch);
+            self.tracer.seen::<{ call_site::ANY }, _, _>(ray, row.clear, self.work, &mut watch);
         watch.sample(radiance)
     }
 

@@ -1,5 +1,6 @@
 //! The pixels of an area, traced as they are taken.
 
+use super::renderer::Asked;
 use super::sparse::Sparse;
 use super::{Output, Pixel, Renderer};
 use crate::math::{Arithmetic, Rgb};
@@ -68,6 +69,12 @@ impl<A: Arithmetic> Area<A> {
         Self { columns, rows, x, row, begun: false }
     }
 
+    /// The pixel that was next.
+    #[inline(always)]
+    fn asked(&self, x: u16, y: u16) -> Asked<'_, A> {
+        Asked { row: &self.row, x, y, columns: (self.columns.start, self.columns.end) }
+    }
+
     /// The next pixel; none below the last row.
     #[inline(always)]
     fn next<'s, const MAX_DEPTH: usize, T, S, const USES: u64>(
@@ -114,9 +121,7 @@ where
     #[inline(always)]
     fn next(&mut self) -> Option<Self::Item> {
         let (x, y) = self.area.next(self.renderer)?;
-        let Area { columns, row, .. } = &self.area;
-        let columns = (columns.start, columns.end);
-        Some((x, y, self.renderer.seen::<{ call_site::SCAN }>(row, x, y, columns)))
+        Some((x, y, self.renderer.seen::<{ call_site::SCAN }>(self.area.asked(x, y))))
     }
 }
 
@@ -147,11 +152,9 @@ where
             self.renderer.sparse = self.sparse.take();
             return None;
         };
-        let Area { columns, row, .. } = &self.area;
-        let (columns, output) = ((columns.start, columns.end), self.output);
+        let (asked, output) = (self.area.asked(x, y), self.output);
         let sparse = &mut self.sparse;
-        let values =
-            self.renderer.values::<{ call_site::SCAN }>(sparse, row, x, y, columns, &output.tone);
+        let values = self.renderer.values::<{ call_site::SCAN }>(sparse, asked, &output.tone);
         Some((x, y, output.shown(values, x, y)))
     }
 }

@@ -13,12 +13,13 @@ mod select;
 mod sight;
 mod site;
 mod terms;
+mod tracer;
 mod visible;
 mod work;
 
 pub(crate) use area::point_of_light;
 pub use nearest::Hit;
-pub use radiance::Tracer;
 pub(crate) use sight::FEW;
 pub use terms::{Paths, Terms};
+pub use tracer::Tracer;
 pub use work::Work;

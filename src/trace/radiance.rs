@@ -5,18 +5,18 @@
 //! stack; since a waiting ray is as deep as its sibling, no more than MAX_DEPTH − 1 ever wait.
 
 use super::area::front_before;
-use super::call_site;
 use super::detail::{self, bumped, painted};
 use super::direct::{Shading, direct};
 use super::indirect::{Spot, indirect};
 use super::meet::{Place, surface_at};
 use super::nearest::{Hit, nearest};
-use super::sight::{Ahead, Vantage, are_few, knows_all, may_be_few, pass_all};
+use super::sight::{Ahead, Vantage, knows_all, may_be_few};
 use super::terms::Terms;
+use super::tracer::{Start, Tracer};
 use super::work::Work;
 use crate::math::{Arithmetic, Rgb, largest, neg, rgb};
 use crate::scene::uses::{self, grey, has, has_indirect, splits_shading};
-use crate::scene::{Row, Scene, SceneRef, View};
+use crate::scene::{Scene, SceneRef};
 use crate::shape::{Leaving, Meeting, Ray};
 use crate::tally::{RayKind, Tally, Term};
 
@@ -58,129 +58,11 @@ impl<A: Arithmetic> Path<A> {
 /// From the key of a ray to that of the next: odd, so that all differ.
 const RAY_STEP: u32 = 0xc2b2_ae3d;
 
-/// Traces rays in a scene, to a depth that its memory was made for.
-#[derive(Clone, Copy, Debug)]
-pub struct Tracer<S> {
-    pub(super) scene: S,
-    depth: u8,
-    /// What is traced is gathered: light that arrives by way of a diffuse surface alone.
-    pub(super) gathering: bool,
-    key: u32,
-    terms: Terms,
-    /// Whose turn it is among virtual lights.
-    turn: u8,
-}
-
 impl<'s, A, S, const USES: u64> Tracer<S>
 where
     A: Arithmetic,
     S: SceneRef<Target = Scene<'s, A, USES>>,
 {
-    /// A tracer for trees `depth` deep; at least 1, the camera's ray alone.
-    #[inline(always)]
-    pub fn new(scene: S, depth: u8) -> Self {
-        Self { scene, depth, key: 0, turn: 0, gathering: false, terms: Terms::ALL }
-    }
-
-    /// A tracer for rays that gather irradiance: what they see of the lights is counted elsewhere.
-    #[inline(always)]
-    pub(crate) fn gathering(scene: S, depth: u8) -> Self {
-        Self { gathering: true, ..Self::new(scene, depth) }
-    }
-
-    /// The same for a camera's ray of this [`Row::key`](crate::scene::Row::key): where what is
-    /// random about the ray comes from.
-    #[inline(always)]
-    #[must_use]
-    pub fn with_key(self, key: u32) -> Self {
-        Self { key, ..self }
-    }
-
-    /// The same for a pixel at this [`Row::in_tile`](crate::scene::Row::in_tile): whose turn it is
-    /// among virtual lights.
-    #[inline(always)]
-    #[must_use]
-    pub fn with_turn(self, turn: u8) -> Self {
-        Self { turn, ..self }
-    }
-
-    /// The same, adding up these terms alone; all, if the scene is tailored without
-    /// [`uses::TERMS`].
-    #[inline(always)]
-    #[must_use]
-    pub fn with_terms(self, terms: Terms) -> Self {
-        Self { terms, ..self }
-    }
-
-    /// The place of the pixel whose rays follow: see [`with_turn`](Self::with_turn).
-    #[inline(always)]
-    pub(crate) fn set_turn(&mut self, turn: u8) {
-        self.turn = turn;
-    }
-
-    #[inline(always)]
-    pub(crate) fn set_key(&mut self, key: u32) {
-        self.key = key;
-    }
-
-    /// The nearest hit along a ray, for tools that show more than radiance.
-    pub fn nearest<T: Tally, const MAX_DEPTH: usize>(
-        &self,
-        ray: &Ray<A>,
-        work: &mut Work<A, MAX_DEPTH>,
-        tally: &mut T,
-    ) -> Option<Hit<A>> {
-        nearest(self.scene, ray, A::FAR, Ahead::ANYTHING, &mut work.scratch.walk, tally)
-    }
-
-    /// Whether no ray of a row meets a sphere, as far as that is worth knowing: where they are few, and known to
-    /// stand in no tree.
-    #[inline(always)]
-    pub(crate) fn is_clear(&self, view: View<A>, row: Row<A>, width: u16) -> bool {
-        knows_all::<USES>()
-            && are_few(&self.scene)
-            && pass_all(self.scene.shapes.spheres, view, row, width)
-    }
-
-    /// The radiance that comes back along a camera's ray. A tree deeper than the memory was
-    /// made for is cut.
-    #[inline(always)]
-    pub fn radiance<T: Tally, const MAX_DEPTH: usize>(
-        &self,
-        ray: Ray<A>,
-        work: &mut Work<A, MAX_DEPTH>,
-        tally: &mut T,
-    ) -> Rgb<A::Radiance> {
-        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, (false, false), work, tally).0
-    }
-
-    /// The same for a ray from the eye that `work` has [looked](Work::look) from, in this scene, and whether it is
-    /// known that it meets no sphere; at a [call site](call_site) of the caller's.
-    #[inline(always)]
-    pub(crate) fn seen<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
-        &self,
-        (ray, clear): (Ray<A>, bool),
-        work: &mut Work<A, MAX_DEPTH>,
-        tally: &mut T,
-    ) -> Rgb<A::Radiance> {
-        if call_site::is_in_line::<SITE>() {
-            self.follow(ray, (true, clear), work, tally).0
-        } else {
-            self.follow_by_call::<SITE, _, _>(ray, (true, clear), work, tally).0
-        }
-    }
-
-    /// The radiance that a ray which gathers irradiance finds, and how far away.
-    #[inline(always)]
-    pub(crate) fn gather<T: Tally, const MAX_DEPTH: usize>(
-        &self,
-        ray: Ray<A>,
-        work: &mut Work<A, MAX_DEPTH>,
-        tally: &mut T,
-    ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow_by_call::<{ call_site::ANY }, _, _>(ray, (false, false), work, tally)
-    }
-
     #[inline(always)]
     fn gathers(&self) -> bool {
         has(USES, uses::IRRADIANCE_CACHE) && self.gathering
@@ -206,16 +88,19 @@ where
         }
     }
 
-    /// The radiance along a ray, and, for one that gathers, the distance to what it hits. `seen`: it is
-    /// a ray from the eye that `work` has looked from; `clear`: it meets no sphere.
+    /// The radiance along a ray, and, for one that gathers, the distance to what it hits.
     #[inline(always)]
-    fn follow<T: Tally, const MAX_DEPTH: usize>(
+    pub(super) fn follow<T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
-        (seen, clear): (bool, bool),
+        start: Start,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
+        let (seen, clear) = match start {
+            Start::Anywhere => (false, false),
+            Start::Eye { clear } => (true, clear),
+        };
         let mut kind = if self.gathers() { RayKind::Ambient } else { RayKind::Primary };
         let vantage = if may_be_few::<USES>() && seen { Vantage::EYE } else { Vantage::ANYWHERE };
         let mut path = Path { ray, weight: [A::FULL; 3], depth: 1, vantage };
@@ -286,14 +171,14 @@ where
 
     /// The same, in line if the compiler thinks so.
     #[inline]
-    fn follow_by_call<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
+    pub(super) fn follow_by_call<const SITE: u8, T: Tally, const MAX_DEPTH: usize>(
         &self,
         ray: Ray<A>,
-        seen: (bool, bool),
+        start: Start,
         work: &mut Work<A, MAX_DEPTH>,
         tally: &mut T,
     ) -> (Rgb<A::Radiance>, A::Length) {
-        self.follow(ray, seen, work, tally)
+        self.follow(ray, start, work, tally)
     }
 
     /// Shades a hit, see [`shade`](Self::shade). Where spheres and planes have a copy of the shading each, most is
