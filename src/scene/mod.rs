@@ -242,6 +242,13 @@ impl<'a, A: Arithmetic, const USES: u64> Scene<'a, A, USES> {
         }
     }
 
+    /// The same scene in the type that may hold anything. Scenes that are tailored each take code of their
+    /// own; in this type they share it.
+    pub const fn general(&self) -> Scene<'a, A> {
+        let &Self { parts, shapes, opaque_shadows, bounded, first_plane } = self;
+        Scene { parts, shapes, opaque_shadows, bounded, first_plane }
+    }
+
     /// The same scene with other light between its surfaces: irradiance records or virtual lights
     /// that were made after it.
     ///

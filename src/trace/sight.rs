@@ -124,14 +124,11 @@ impl<A: Arithmetic> Sight<A> {
     /// A bit for each of the first spheres that a ray in a direction may meet.
     #[inline(always)]
     pub(super) fn ahead(&self, direction: &[A::Unit; 3], count: usize) -> u32 {
-        let (mut found, mut bit) = (0, 1);
-        for cone in self.cones.iter().take(count) {
-            if A::in_cone(cone, direction) {
-                found |= bit;
-            }
-            bit <<= 1;
-        }
-        found
+        self.cones
+            .iter()
+            .take(count)
+            .rev()
+            .fold(0, |found, cone| found << 1 | u32::from(A::in_cone(cone, direction)))
     }
 
     /// Whether a ray in a direction may meet the sphere of this number.

@@ -83,10 +83,8 @@ impl Arithmetic for Fixed {
     const REFINE: bool = true;
     const FAR: I16F16 = I16F16::from_bits(FAR);
     const HORIZON: I16F16 = I16F16::from_bits(FAR - 1);
-    const EVERY_DIRECTION: FixedDirectionCone =
-        FixedDirectionCone { axis: [0; 3], least_q17: i32::MIN };
-    const NO_DIRECTION: FixedDirectionCone =
-        FixedDirectionCone { axis: [0; 3], least_q17: i32::MAX };
+    const EVERY_DIRECTION: FixedDirectionCone = FixedDirectionCone { axis: [0; 3], below_q17: -1 };
+    const NO_DIRECTION: FixedDirectionCone = FixedDirectionCone { axis: [0; 3], below_q17: 0 };
     const NO_LENGTH: I16F16 = I16F16::ZERO;
     const NO_UNIT: Unit = Unit::ZERO;
     const ONE_UNIT: Unit = Unit::ONE;
@@ -317,7 +315,8 @@ impl Arithmetic for Fixed {
     fn in_cone(cone: &FixedDirectionCone, d: &[Unit; 3]) -> bool {
         // Below 2¹³ steps times 2¹⁷, and by Cauchy's inequality so is every part of the sum.
         let p = |i: usize| cone.axis[i].wrapping_mul(d[i].to_bits());
-        p(0).wrapping_add(p(1)).wrapping_add(p(2)) >= cone.least_q17
+        // A sign is a bit without a branch.
+        cone.below_q17.wrapping_sub(p(0).wrapping_add(p(1)).wrapping_add(p(2))) < 0
     }
 
     #[inline(always)]

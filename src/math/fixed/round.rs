@@ -190,7 +190,7 @@ pub(super) fn direction_cone(way: &[i32; 3], r: i32, blurred: bool) -> Option<Fi
     if least == 0 {
         return None;
     }
-    Some(FixedDirectionCone { axis, least_q17: (least << 17) as i32 })
+    Some(FixedDirectionCone { axis, below_q17: (least << 17) as i32 - 1 })
 }
 
 /// See `Arithmetic::pair_cone`: a ray from anywhere on the first sphere meets the second only where one from

@@ -134,10 +134,10 @@ pub struct FixedPace {
     pub(super) down: u32,
 }
 
-/// See [`Arithmetic::DirectionCone`](crate::math::Arithmetic::DirectionCone): those whose product with the axis is no less than `least_q17`
+/// See [`Arithmetic::DirectionCone`](crate::math::Arithmetic::DirectionCone): those whose product with the axis is more than `below_q17`
 /// steps of the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedDirectionCone {
     pub(super) axis: [i32; 3],
-    pub(super) least_q17: i32,
+    pub(super) below_q17: i32,
 }
