@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
-use crate::machine::MACHINES;
+use crate::machine::{self, MACHINES};
 use crate::report::Report;
 use crate::shell::{self, cargo};
 
 /// The Pico's displays, and its log.
-const PICO: [&str; 5] = [
+const PICO: [&str; 6] = [
     "st7789-240x240,rtt,ram",
     "st7789-240x240",
     "st7789-240x320,rtt,ram",
     "st7735s-160x80,rtt,ram",
     "ili9341-320x240,rtt,ram",
+    "st7789-240x240,rtt,ram,one-core,sparse",
 ];
 
 /// Images that no emulator runs, with how they are built: whether they fit is to be seen.
@@ -81,6 +82,7 @@ pub(crate) fn boards(report: &mut Report) {
     for (board, words) in UNSEEN {
         let name =
             format!("{board}{}: it links", words.replace(" --no-default-features --features", ","));
+        let _building = machine::building();
         step(
             report,
             &name,

@@ -1,10 +1,12 @@
 //! The emulated boards: building their firmware, and running it in QEMU.
 
 use std::fmt::Display;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use whitted_demo::job::Job;
@@ -235,11 +237,21 @@ pub(crate) fn build_with(
     built(cargo(dir, args).args(more), bin)
 }
 
-/// What cargo builds, told to say it in JSON.
+/// Held while a program is built and put away: where cargo puts it doesn't depend on its features, and another
+/// group of checks may build the same with others.
+static BUILDING: Mutex<()> = Mutex::new(());
+
+/// For builds whose program nobody runs.
+pub(crate) fn building() -> MutexGuard<'static, ()> {
+    BUILDING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What cargo builds, told to say it in JSON; a copy that no other build replaces.
 pub(crate) fn built(command: &mut Command, bin: &str) -> Result<PathBuf, String> {
+    let _building = building();
     let messages = output(command)?;
     // One message a line; only the finished program's names an executable that isn't null.
-    messages
+    let program = messages
         .lines()
         .filter_map(|line| {
             let (_, rest) = line.split_once("\"executable\":\"")?;
@@ -247,7 +259,13 @@ pub(crate) fn built(command: &mut Command, bin: &str) -> Result<PathBuf, String>
             Some(PathBuf::from(path.replace("\\\\", "\\")))
         })
         .next_back()
-        .ok_or_else(|| format!("cargo names no program {bin}"))
+        .ok_or_else(|| format!("cargo names no program {bin}"))?;
+    let mut hasher = DefaultHasher::new();
+    command.get_current_dir().hash(&mut hasher);
+    command.get_args().for_each(|word| word.hash(&mut hasher));
+    let copy = program.with_file_name(format!("{bin}-{:08x}", hasher.finish() as u32));
+    std::fs::copy(&program, &copy).map_err(|error| format!("{}: {error}", copy.display()))?;
+    Ok(copy)
 }
 
 impl Machine {
