@@ -226,31 +226,41 @@ fn jobs(machine: &Machine) -> Vec<Job> {
     jobs
 }
 
-/// The scenes that the Pico's image carries.
+/// The scenes that the Pico's image carries, and those that one for counting does.
 fn cycles(table: &mut Table) -> Result<(), String> {
     let job = |(scene, width, height)| {
         let (arith, sampling) = (ArithName::Fixed, Sampling::Center);
         Job { scene, arith, width, height, sampling }
     };
-    let jobs = [
+    let carried = [
         (SceneName::Showcase, 80, 60),
         (SceneName::Limit, 240, 240),
         (SceneName::Raystones, 120, 60),
         (SceneName::Ftb, 160, 120),
     ]
     .map(job);
-    for (job, cycles) in jobs.iter().zip(pico::cycles(&jobs)?) {
-        let each = cycles as f64 / (f64::from(job.width) * f64::from(job.height));
-        table.rows.push(vec![
-            "RP2040".into(),
-            job.scene.name().into(),
-            job.arith.name().into(),
-            format!("{}×{}", job.width, job.height),
-            format!("{each:.0}"),
-            String::new(),
-        ]);
+    let sparse = Job { sampling: Sampling::SPARSE, ..job((SceneName::Limit, 240, 240)) };
+    let tree = job((SceneName::Spheres64, 120, 120));
+    // The images for counting one by one: RAM doesn't hold them all.
+    for jobs in [&carried[..], &[sparse], &[tree]] {
+        for (job, cycles) in jobs.iter().zip(pico::cycles(jobs)?) {
+            table.rows.push(row(job, cycles));
+        }
     }
     Ok(())
+}
+
+/// A row of the RP2040.
+fn row(job: &Job, cycles: u64) -> Vec<String> {
+    let each = cycles as f64 / (f64::from(job.width) * f64::from(job.height));
+    vec![
+        "RP2040".into(),
+        scene(job),
+        job.arith.name().into(),
+        format!("{}×{}", job.width, job.height),
+        format!("{each:.0}"),
+        String::new(),
+    ]
 }
 
 /// Runs a machine's jobs.
@@ -284,6 +294,14 @@ fn count(
     Ok(())
 }
 
+/// A job's scene, and the sampling if it isn't one ray a pixel.
+fn scene(job: &Job) -> String {
+    match job.sampling_name() {
+        Some(sampling) => format!("{}, {sampling}", job.scene.name()),
+        None => job.scene.name().into(),
+    }
+}
+
 fn frame(machine: &Machine, job: &Job, record: Record<'_>) -> Result<Vec<String>, String> {
     let pixels = f64::from(job.width) * f64::from(job.height);
     // The same as on the board, which `cargo xtask test` sees to.
@@ -293,10 +311,7 @@ fn frame(machine: &Machine, job: &Job, record: Record<'_>) -> Result<Vec<String>
     let instructions = record.number("instructions")? as f64 / pixels;
     Ok(vec![
         machine.core.into(),
-        match job.sampling_name() {
-            Some(sampling) => format!("{}, {sampling}", job.scene.name()),
-            None => job.scene.name().into(),
-        },
+        scene(job),
         job.arith.name().into(),
         format!("{}×{}", job.width, job.height),
         format!("{instructions:.0}"),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use whitted::frame::Sampling;
-use whitted_demo::job::{ArithName, Job, SceneName};
+use whitted_demo::job::{ArithName, Job, MAX_SAMPLES, SceneName};
 use whitted_demo::rgb565;
 
 use crate::cores;
@@ -49,15 +49,18 @@ const TRANSFERS: [[u32; 4]; 2] =
     [[0, 3, 5, 9], [10, 11, 11 + 700, 10 + 30 * 20 * rgb565::BYTES as u32]];
 /// How frames get to the display.
 const WAYS: [&str; 3] = ["bands", "graphics", "trace"];
+/// The features of an image for one core.
+const ONE: &str = "rtt,ram,one-core";
 /// Sending by DMA may add this to tracing.
 const SENDING: f64 = 0.03;
 
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
-                         [--display DISPLAY]
+                         [--sampling center|sparse] [--display DISPLAY]
     scenes are showcase, limit, raystones, ftb and bathroom; the size is 60x45 unless given, at
     most the display's; ways are bands (by DMA, the default), graphics (embedded-graphics) and
-    trace (nothing is sent); displays are st7789-240x240, the default, st7789-240x320,
+    trace (nothing is sent); sparse sampling is of the limit scene, not by graphics, on displays up to
+    240 wide; displays are st7789-240x240, the default, st7789-240x320,
     st7735s-160x80 and ili9341-320x240";
 
 /// A frame to emulate.
@@ -87,6 +90,7 @@ struct Frame {
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let mut scene = SceneName::Showcase;
     let (mut size, mut way, mut file, mut display) = (Some(SMALL), WAYS[0], None, &DISPLAYS[0]);
+    let mut sampling = Sampling::Center;
     let (pairs, rest) = words.as_chunks::<2>();
     if !rest.is_empty() {
         return Err(USAGE.into());
@@ -104,6 +108,8 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
             }
             "--display" => display = DISPLAYS.iter().find(|d| d.name == value).ok_or(USAGE)?,
             "--way" => way = *WAYS.iter().find(|&&way| way == value).ok_or(USAGE)?,
+            "--sampling" if value == "center" => sampling = Sampling::Center,
+            "--sampling" if value == "sparse" => sampling = Sampling::SPARSE,
             "-o" => file = Some(PathBuf::from(value)),
             _ => return Err(USAGE.into()),
         }
@@ -112,9 +118,13 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     if size.0 > display.size.0 || size.1 > display.size.1 {
         return Err(USAGE.into());
     }
+    let job = Job { sampling, ..job(scene, size) };
+    if job.to_string().parse() != Ok(job) || (sampling != Sampling::Center && way == WAYS[1]) {
+        return Err(USAGE.into());
+    }
     setup::run()?;
-    let image = build(display)?;
-    let order = Order { display, job: job(scene, size), way, stick: &[], erase: true };
+    let image = image_for(display, &[job])?;
+    let order = Order { display, job, way, stick: &[], erase: true };
     let frame = emulate(&image, &order)?;
     if let Some(file) = file {
         picture::save_rgb565(&file, display.size, &frame.memory)?;
@@ -145,7 +155,7 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
 /// The cycles that the firmware of the first display spends tracing, on one core.
 pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
     let display = &DISPLAYS[0];
-    let image = build(display)?;
+    let image = image_for(display, jobs)?;
     let traced = |&job: &Job| {
         let order = Order { display, job, way: WAYS[2], stick: &[], erase: true };
         emulate(&image, &order).map(|frame| frame.cycles)
@@ -155,11 +165,18 @@ pub(crate) fn cycles(jobs: &[Job]) -> Result<Vec<u64>, String> {
 
 /// The firmware of the first display, for one core, with what these jobs draw.
 pub(crate) fn image(jobs: &[Job]) -> Result<PathBuf, String> {
+    image_for(&DISPLAYS[0], jobs)
+}
+
+fn image_for(display: &Display, jobs: &[Job]) -> Result<PathBuf, String> {
+    let mut features = ONE.to_owned();
     if jobs.iter().any(|job| job.scene.is_for_counting()) {
-        build_with(&DISPLAYS[0], "rtt,one-core,counted")
-    } else {
-        build(&DISPLAYS[0])
+        features += ",counted";
     }
+    if jobs.iter().any(|job| job.sampling != Sampling::Center) {
+        features += ",sparse";
+    }
+    build_with(display, &features)
 }
 
 /// The checks: a small frame by either way is the host's, on displays of two kinds, and DMA hides
@@ -199,6 +216,15 @@ pub(crate) fn check(report: &mut Report) {
             }
         }
     }
+    let sparse = Job { sampling: Sampling::SPARSE, ..small };
+    report.check(&format!("Pico with {} (rp2040py): {sparse}", DISPLAYS[0].name), || {
+        let image = image(&[sparse])?;
+        let order =
+            Order { display: &DISPLAYS[0], job: sparse, way: WAYS[0], stick: &[], erase: true };
+        let frame = emulate(&image, &order)?;
+        println!("     {} cycles", frame.cycles);
+        compare(&order, &frame)
+    });
     let name = format!("Pico (rp2040-emu): {small} on both cores");
     if let Some(image) = report.check(&name, || both_cores(&small)) {
         let name = "Pico (rp2040-emu): the second core's stack, bathroom";
@@ -271,13 +297,12 @@ fn stuck(image: &Path, job: Job, stick: &[u32], erase: bool) -> Result<Frame, St
 
 /// Two cores against one: the same bits, and how much sooner. The image for two.
 fn both_cores(job: &Job) -> Result<PathBuf, String> {
-    // Where an image is doesn't depend on its features: each is run before the next is built.
     let one = cores::trace(&build_with(&DISPLAYS[0], "ram,one-core")?, job)?;
     let two_image = build_with(&DISPLAYS[0], "rtt,ram")?;
     elf::in_ram(&two_image, ArithName::Fixed)?;
     let two = cores::trace(&two_image, job)?;
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
-    rgb565::draw(job.scene, job.width, job.height, &mut picture);
+    rgb565::draw(job, &mut picture);
     let sum = rgb565::sum(0, &picture);
     if one.sum != sum || two.sum != sum {
         return Err(format!("the host's pixels sum to {sum:#x}, {one:#x?} and {two:#x?}"));
@@ -304,7 +329,7 @@ fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
 }
 
 fn build(display: &Display) -> Result<PathBuf, String> {
-    build_with(display, "rtt,ram,one-core")
+    build_with(display, ONE)
 }
 
 fn build_with(display: &Display, more: &str) -> Result<PathBuf, String> {
@@ -336,27 +361,29 @@ fn emulate(image: &Path, order: &Order<'_>) -> Result<Frame, String> {
     let cycles = Record::new(&line).number("cycles")?;
     let memory = std::fs::read(&dump).map_err(|error| format!("{}: {error}", dump.display()))?;
     let log = text.lines().filter_map(|line| Some(line.strip_prefix("log ")?.to_owned())).collect();
-    check_stack(image, Record::new(&line).number("stack_free")?)?;
+    check_stack(image, &order.job, Record::new(&line).number("stack_free")?)?;
     Ok(Frame { memory, cycles, line, log })
 }
 
-/// The whole firmware's stack, of which so many bytes have never been touched, is within the bound.
-fn check_stack(image: &Path, free: u64) -> Result<(), String> {
+/// The whole firmware's stack, of which so many bytes have never been touched, is within the bound; beside
+/// samples, if there are any.
+fn check_stack(image: &Path, job: &Job, free: u64) -> Result<(), String> {
     let [top, bottom] = ["_stack_start", "__sheap"].map(|name| elf::symbol(image, name));
     let used = (top?.0 - bottom?.0).saturating_sub(free);
     println!("     stack {used} bytes");
-    stack::firmware(ArithName::Fixed, used)
+    let samples = if job.sampling == Sampling::Center { 0 } else { MAX_SAMPLES };
+    stack::firmware(ArithName::Fixed, used, samples)
 }
 
 /// What the display is to hold: the picture in the upper left corner of black, or just that.
 fn expected(order: &Order<'_>) -> Vec<u8> {
-    let Job { scene, width, height, .. } = order.job;
+    let Job { width, height, .. } = order.job;
     let line = |width: u16| usize::from(width) * rgb565::BYTES;
     let (across, down) = order.display.size;
     let mut memory = vec![0; line(across) * usize::from(down)];
     if order.way != "trace" {
         let mut picture = vec![0; line(width) * usize::from(height)];
-        rgb565::draw(scene, width, height, &mut picture);
+        rgb565::draw(&order.job, &mut picture);
         let rows = memory.chunks_exact_mut(line(across));
         for (row, traced) in rows.zip(picture.chunks_exact(line(width))) {
             row[..traced.len()].copy_from_slice(traced);

@@ -118,7 +118,7 @@ fn trace(target: &str, job: &Job) -> Result<String, String> {
     let cycles = wait(&mut chip, false, job)? - start;
 
     let mut picture = vec![0; usize::from(job.width) * usize::from(job.height) * rgb565::BYTES];
-    rgb565::draw_in(job.arith, job.scene, job.width, job.height, &mut picture);
+    rgb565::draw(job, &mut picture);
     let expected = rgb565::sum(0, &picture);
     let sum = chip.peek(elf::symbol(&image, "TRACED")?.0 as u32);
     if sum != expected {

@@ -58,7 +58,7 @@ impl<'a> Order<'a> {
         let checksum = frame::draw(&job, &mut (), &mut keep);
         if self.narrow {
             let mut bytes = vec![0; usize::from(size.0) * usize::from(size.1) * rgb565::BYTES];
-            rgb565::draw_in(job.arith, job.scene, size.0, size.1, &mut bytes);
+            rgb565::draw(&job, &mut bytes);
             pixels = widened(&bytes);
         }
         Ok((picture(size, &pixels), checksum))

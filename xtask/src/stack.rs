@@ -177,8 +177,8 @@ pub(crate) fn banded(arith: ArithName, stack: u64) -> Result<(), String> {
 
 /// So is a firmware's whole stack, from reset to the end of such a frame, with what pins, clocks, the display's driver
 /// and sending take beside.
-pub(crate) fn firmware(arith: ArithName, stack: u64) -> Result<(), String> {
-    within(stack, bound(arith, MAX_DEPTH, 0, 0) + BOARD).map(drop)
+pub(crate) fn firmware(arith: ArithName, stack: u64, samples: usize) -> Result<(), String> {
+    within(stack, bound(arith, MAX_DEPTH, 0, samples) + BOARD).map(drop)
 }
 
 /// The frames of a log are within the bound.

@@ -108,9 +108,9 @@ impl Options {
         };
         let jobs = names.iter().map(job).collect::<Result<Vec<_>, _>>()?;
         if matches!(target, Target::Rp2040)
-            && jobs.iter().any(|job| job.sampling != Sampling::Center)
+            && jobs.iter().any(|job| ![Sampling::Center, Sampling::SPARSE].contains(&job.sampling))
         {
-            return Err("the Pico's program draws one ray a pixel".into());
+            return Err("the Pico's program draws one ray a pixel, or sparse".into());
         }
         if jobs.len() > 1 && (flame.is_some() || folded.is_some()) {
             return Err("a flame graph is of one scene".into());

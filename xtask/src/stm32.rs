@@ -219,7 +219,7 @@ fn compare(job: &Job, memory: &[u8]) -> Result<(), String> {
     let line = |width: u16| usize::from(width) * rgb565::BYTES;
     let mut expected = vec![0; memory.len()];
     let mut picture = vec![0; line(job.width) * usize::from(job.height)];
-    rgb565::draw_in(job.arith, job.scene, job.width, job.height, &mut picture);
+    rgb565::draw(job, &mut picture);
     for (row, traced) in
         expected.chunks_exact_mut(line(DISPLAY.0)).zip(picture.chunks_exact(line(job.width)))
     {

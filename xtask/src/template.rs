@@ -42,11 +42,13 @@ pub(crate) fn check(report: &mut Report) {
     report.check(
         "template (rp2040py): a copy, its display smaller, gets the host's picture",
         || {
-            let copy = boards().join("target/tmp").join(NAME);
+            // Outside the boards' directory, whose settings would be added to the copy's.
+            let copy = root().join("target/tmp").join(NAME);
             FILES.iter().try_for_each(|name| duplicate(name, &copy))?;
             // As it was linted: nothing else is to be built again.
+            let target = boards().join("target").display().to_string();
             let words =
-                ["build", "-q", "--locked", "--target-dir", "../..", "--message-format=json"];
+                ["build", "-q", "--locked", "--target-dir", &target, "--message-format=json"];
             let image = machine::built(&mut cargo(&copy, words), NAME)?;
             let (there, here) = (emulate(&image)?, expected(&copy.join("scene.toml"))?);
             let wrong = there.iter().zip(&here).filter(|(there, here)| there != here).count();

@@ -16,12 +16,12 @@ use mipidsi::interface::{Interface, SpiError, SpiInterface};
 use mipidsi::models::ST7789;
 use mipidsi::{Builder, Display, NoResetPin};
 use whitted::Picture;
-use whitted::frame::Rgb565;
+use whitted::frame::{Rgb565, Sampling};
 use whitted::math::Fixed;
 use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
-use whitted_demo::job::SceneName;
+use whitted_demo::job::{ArithName, Job, SceneName};
 use whitted_demo::rgb565;
 use whitted_demo::scenes::{Shot, Shots, View};
 
@@ -212,7 +212,14 @@ impl View<Fixed> for Frame<'_> {
 fn every_transfer_may_fail(way: Way, least: usize) {
     const BYTES: usize = WIDTH as usize * HEIGHT as usize * rgb565::BYTES;
     let mut wanted = vec![0; BYTES];
-    rgb565::draw(SCENE, WIDTH, HEIGHT, &mut wanted);
+    let job = Job {
+        scene: SCENE,
+        arith: ArithName::Fixed,
+        width: WIDTH,
+        height: HEIGHT,
+        sampling: Sampling::Center,
+    };
+    rgb565::draw(&job, &mut wanted);
     let controller = Rc::new(RefCell::new(Controller::default()));
     // The driver wants it for as long as it lives.
     let buffer = Box::leak(Box::new([0; BUFFER]));

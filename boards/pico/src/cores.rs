@@ -1,5 +1,7 @@
 //! The second core: it traces rows of the frame that the first is drawing.
 
+use whitted::frame::Sampling;
+
 use crate::chip::hal::sio::SioFifo;
 use crate::chip::hal::{Sio, pac};
 use crate::draw;
@@ -20,13 +22,15 @@ impl Second {
     }
 
     /// Has it trace rows of the frame that is dealt, while `first` runs on this core; returns when
-    /// it has stopped.
+    /// it has stopped. By sparse sampling a row takes what was learnt from those above: then this core
+    /// works alone.
     pub(crate) fn help(&mut self, frame: Frame, first: impl FnOnce()) {
-        if self.started {
+        let helps = self.started && frame.sampling == Sampling::Center;
+        if helps {
             frame.words().into_iter().for_each(|word| self.fifo.write_blocking(word));
         }
         first();
-        if self.started {
+        if helps {
             self.fifo.read_blocking();
         }
     }

@@ -7,12 +7,13 @@ use embedded_graphics::pixelcolor;
 use embedded_graphics::prelude::*;
 use embedded_hal::digital::OutputPin;
 use whitted::Picture;
-use whitted::frame::{Renderer, Rgb565, Settings};
+use whitted::frame::{Renderer, Rgb565, Sample, Sampling, Settings};
 use whitted::scene::{Scene, SceneRef};
 use whitted::trace::Work;
 use whitted_demo::frame::MAX_DEPTH;
+use whitted_demo::job::MAX_SAMPLES;
 use whitted_demo::rgb565;
-use whitted_demo::scenes::{Shot, Shots, View};
+use whitted_demo::scenes::{self, Shot, Shots, View};
 use whitted_demo::stack;
 
 use crate::board::{Board, Display};
@@ -154,15 +155,25 @@ impl Source for Unseen {
     }
 }
 
-/// Traces rows of a frame until the source has no more.
+/// Traces rows of a frame until the source has no more. Not inlined, so that the memory lies apart from what the
+/// tracer keeps on the stack: only its first 1,020 bytes are reached by one instruction.
+#[inline(never)]
 pub(crate) fn trace(frame: Frame, source: &mut dyn Source) {
-    Number::shot(frame.scene, Rows { frame, source });
+    let work = &mut Work::new();
+    if scenes::SPARSE_APART && frame.sampling != Sampling::Center {
+        let samples = &mut [Sample::NONE; MAX_SAMPLES];
+        Number::sparse(Rows { frame, source, work, samples });
+    } else {
+        Number::shot(frame.scene, Rows { frame, source, work, samples: &mut [] });
+    }
 }
 
 /// Tracing a frame's rows.
 struct Rows<'a> {
     frame: Frame,
     source: &'a mut dyn Source,
+    work: &'a mut Work<Number, MAX_DEPTH>,
+    samples: &'a mut [Sample<Number>],
 }
 
 impl View<Number> for Rows<'_> {
@@ -173,9 +184,9 @@ impl View<Number> for Rows<'_> {
     where
         S: SceneRef<Target = Scene<'static, Number, USES>>,
     {
-        let Self { frame, source } = self;
-        let mut work = Work::<_, MAX_DEPTH>::new();
-        let mut renderer = rgb565::renderer(&shot, frame.width, frame.height, &mut work);
+        let Self { frame, source, work, samples } = self;
+        let Frame { width, height, sampling, .. } = frame;
+        let mut renderer = rgb565::sampled(&shot, (width, height), sampling, work, samples);
         while let Some(row) = source.next() {
             renderer.band::<Rgb565>(row.y, &shot.output, row.bytes);
         }

@@ -2,8 +2,9 @@
 
 use core::ptr;
 
+use whitted::frame::Sampling;
 use whitted_demo::job::{Job, SceneName};
-use whitted_demo::rgb565;
+use whitted_demo::{rgb565, scenes};
 
 use crate::chip::ARITH;
 use crate::panel;
@@ -33,10 +34,12 @@ pub(crate) struct Frame {
     pub(crate) scene: SceneName,
     pub(crate) width: u16,
     pub(crate) height: u16,
+    /// One ray a pixel, or sparse where there is code for that.
+    pub(crate) sampling: Sampling,
 }
 
 impl Frame {
-    /// How many words it takes to tell the other core.
+    /// How many words it takes to tell the other core, which helps with one ray a pixel.
     pub(crate) const WORDS: usize = 2;
 
     pub(crate) fn words(self) -> [u32; Self::WORDS] {
@@ -46,7 +49,8 @@ impl Frame {
 
     pub(crate) fn from_words([scene, size]: [u32; Self::WORDS]) -> Self {
         let scene = SceneName::ALL.get(scene as usize).copied().unwrap_or(SceneName::Showcase);
-        Self { scene, width: (size >> 16) as u16, height: size as u16 }
+        let (width, height) = ((size >> 16) as u16, size as u16);
+        Self { scene, width, height, sampling: Sampling::Center }
     }
 
     /// Bytes in a row.
@@ -66,8 +70,8 @@ impl Order {
     /// What [`ORDER`] says.
     ///
     /// # Panics
-    /// If it says what can't be done: a misspelt word, another arithmetic, or a frame larger
-    /// than the display.
+    /// If it says what can't be done: a misspelt word, another arithmetic, a frame larger than
+    /// the display, or a sampling that the image has no code for.
     pub(crate) fn given() -> Option<Self> {
         // SAFETY: a reference is readable. Volatile, because the image is patched after the
         // compiler has seen the blanks.
@@ -82,9 +86,15 @@ impl Order {
             Some(_) => panic!("ways are bands, graphics and trace"),
         };
         assert!(job.arith == ARITH, "this image draws in another arithmetic");
-        let (width, height) = panel::SIZE;
-        assert!(job.width <= width && job.height <= height, "the display is smaller");
-        let frame = Frame { scene: job.scene, width: job.width, height: job.height };
+        let (across, down) = panel::SIZE;
+        assert!(job.width <= across && job.height <= down, "the display is smaller");
+        let Job { scene, width, height, sampling, .. } = job;
+        match sampling {
+            Sampling::Center => {}
+            Sampling::Sparse { .. } if scenes::SPARSE_APART && way != Way::Graphics => {}
+            _ => panic!("this image draws one ray a pixel"),
+        }
+        let frame = Frame { scene, width, height, sampling };
         Some(Self { frame, way })
     }
 }

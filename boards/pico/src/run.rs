@@ -1,6 +1,7 @@
 //! What the firmware does: the frame that is ordered, or else scene after scene.
 
 use embedded_hal::digital::InputPin;
+use whitted::frame::Sampling;
 use whitted_demo::job::SceneName;
 use whitted_demo::stack;
 
@@ -28,7 +29,7 @@ pub(crate) fn run() -> ! {
         None => {
             let mut display = display.start(&mut board.sleep);
             for scene in SceneName::ALL.into_iter().cycle() {
-                let frame = Frame { scene, width, height };
+                let frame = Frame { scene, width, height, sampling: Sampling::Center };
                 board.frame(Some(&mut display), &Order { frame, way: Way::Bands }, top);
                 board.pause();
             }

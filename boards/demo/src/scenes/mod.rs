@@ -49,6 +49,7 @@ pub trait View<A: Arithmetic> {
 
     /// The same, given the shot's parts one by one: the compiler then sees that the camera is always the
     /// same static, and reads it where it is used. Not inlined, so that the stack it takes is its own.
+    /// On a PC all scenes are drawn by one copy of the tracer, so that nobody waits for many of them.
     #[inline(never)]
     fn view_parts<S, const USES: u64>(
         self,
@@ -60,6 +61,25 @@ pub trait View<A: Arithmetic> {
     where
         Self: Sized,
         S: SceneRef<Target = Scene<'static, A, USES>>,
+    {
+        if cfg!(target_os = "none") {
+            self.view(Shot { scene, camera, depth, output })
+        } else {
+            self.view_general(&scene.general(), camera, depth, output)
+        }
+    }
+
+    /// The same of a scene of whatever type.
+    #[inline(never)]
+    fn view_general(
+        self,
+        scene: &Scene<'static, A>,
+        camera: &'static Camera<A>,
+        depth: u8,
+        output: Output,
+    ) -> Self::Output
+    where
+        Self: Sized,
     {
         self.view(Shot { scene, camera, depth, output })
     }
@@ -88,7 +108,7 @@ const SAMPLINGS: u64 = Sampling::Corners.uses()
     | if SPARSE_APART { 0 } else { Sampling::SPARSE.uses() };
 
 /// Whether sparse sampling has a type of its own: a copy of the tracer is ten thousand bytes.
-const SPARSE_APART: bool = cfg!(any(feature = "counted", not(target_os = "none")));
+pub const SPARSE_APART: bool = cfg!(any(feature = "sparse", not(target_os = "none")));
 
 impl Shots for Fixed {
     #[inline(always)]
