@@ -287,8 +287,17 @@ fn glass_of_water<A: Make>() {
 /// Every depth that there is memory for is traced, none that there isn't; the memory's size
 /// doesn't change what is seen.
 fn depths_of_memory<A: Make>() {
+    // One copy of the tracer for each depth.
+    fn down<A: Make, const N: usize>(
+        scene: &Scene<'_, A>,
+        work: &mut Work<A, N>,
+    ) -> (Counts, [f64; 3]) {
+        let (mut counts, ray) = (Counts::default(), ray([0.0, 1.0, 0.0], DOWN));
+        let seen = Tracer::new(scene, N as u8).radiance(ray, work, &mut counts);
+        (counts, seen.map(Into::into))
+    }
     fn depth<A: Make, const N: usize>(mirrors: &Scene<'_, A>, panes: &Scene<'_, A>) {
-        let (o, depth) = ([0.0, 1.0, 0.0], N as u8);
+        let depth = N as u8;
         let mut work = Work::<A, N>::new();
         let camera = A::camera();
         for (asked, fits) in [(depth, true), (depth + 1, false), (0, false)] {
@@ -297,14 +306,11 @@ fn depths_of_memory<A: Make>() {
             let error = FrameError::Depth { depth: asked, max: depth };
             assert_eq!(made.map(|_| ()).err(), if fits { None } else { Some(error) });
         }
-        let seen = Tracer::new(mirrors, depth).radiance(ray(o, DOWN), &mut work, &mut ());
-        close::<A>(seen.map(Into::into), 2.0 - 0.5f64.powi(i32::from(depth) - 1));
+        let (_, seen) = down(mirrors, &mut work);
+        close::<A>(seen, 2.0 - 0.5f64.powi(i32::from(depth) - 1));
         // both kinds of ray at every surface: as many wait as there is memory for
-        let mut counts = Counts::default();
-        let small = Tracer::new(panes, depth).radiance(ray(o, DOWN), &mut work, &mut counts);
-        let (all, large) = counted(panes, depth, o, DOWN);
-        assert_eq!(small.map(Into::into), large);
-        assert_eq!(counts, all);
+        let all = counted(panes, depth, [0.0, 1.0, 0.0], DOWN);
+        assert_eq!(down(panes, &mut work), all);
     }
     let planes = |material| (0..8).map(move |i| (Body::Plane(UP, -f64::from(i)), material));
     let mirror = MaterialSpec { ambient: [1.0; 3], reflection: [0.5; 3], ..BLACK };

@@ -60,8 +60,10 @@ impl<A: Arithmetic> Tailored<A> for Unseen {
     ) {
         let settings = Settings::new(60, 45);
         let mut work = Work::<A, 5>::new();
+        // Counted, as above: one copy of the tracer does for both.
         let mut renderer =
-            Renderer::new(scene, camera, settings, &mut work, &mut []).expect("settings");
+            Renderer::with_tally(scene, camera, settings, &mut work, &mut [], Counts::default())
+                .expect("settings");
         let seen: Vec<_> = renderer.scan(0..60, 0..45).collect();
         for (x, y, radiance) in seen {
             let ray = renderer.ray(x, y);
