@@ -32,7 +32,7 @@ impl<A: Arithmetic> Tailored<A> for SameBits {
         camera: &'static Camera<A>,
     ) {
         let (here, counts) = picture(scene, camera);
-        let (there, all) = picture(&Scene::checked(*scene.parts()), camera);
+        let (there, all) = picture(&scene.general(), camera);
         assert!(here == there, "{name} in {}", A::NAME);
         assert_eq!(counts, all, "{name} in {}", A::NAME);
         self.0 += 1;

@@ -57,7 +57,8 @@ const SENDING: f64 = 0.03;
 const USAGE: &str = "\
 cargo xtask emulate pico [--scene NAME] [-o FILE.png] [--size WIDTHxHEIGHT|full] [--way WAY]
                          [--sampling center|sparse] [--display DISPLAY]
-    scenes are showcase, limit, raystones, ftb and bathroom; the size is 60x45 unless given, at
+    scenes are showcase, limit, raystones, ftb and bathroom, and in an image for counting gfxcat and
+    spheres64; the size is 60x45 unless given, at
     most the display's; ways are bands (by DMA, the default), graphics (embedded-graphics) and
     trace (nothing is sent); sparse sampling is of the limit scene, not by graphics, on displays up to
     240 wide; displays are st7789-240x240, the default, st7789-240x320,
