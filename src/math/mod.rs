@@ -455,6 +455,9 @@ pub trait Arithmetic: AnyBitPattern + Debug + Send + Sync + 'static {
     fn aim(base: Self::Aim, step: Self::Aim, n: i32, fraction: i32) -> Self::Aim;
     /// `a/n`; `a` for n = 0.
     fn aim_over(a: Self::Aim, n: u32) -> Self::Aim;
+    /// A camera's vectors forward, right and down, all halved as often as sums of them need to be in range
+    /// for a picture of this size: not at all, but for angles of view or pictures that are very wide.
+    fn fitted(vectors: [[Self::Aim; 3]; 3], width: u16, height: u16) -> [[Self::Aim; 3]; 3];
     /// How large a camera's view vector is, for [`sight`](Self::sight).
     fn rise(v: &[Self::Aim; 3]) -> u8;
     /// The unit vector along a camera's view vector. It takes fewer steps for one as large as `rise` says.

@@ -1,7 +1,7 @@
 //! Unit vectors: their making and Snell's law.
 
 use super::kernel::{length_times_unit, lengths, magnitude, shift};
-use super::{FixedEta, FixedInverse, Unit};
+use super::{Aim, FixedEta, FixedInverse, Unit};
 use crate::math::root::{self, reciprocal_root_q29, sqrt_u32};
 use ::fixed::types::I16F16;
 
@@ -68,6 +68,27 @@ pub(super) fn unit_along(v: &[i32; 3]) -> ([Unit; 3], i32) {
     let unit = |x: i32| Unit::from_bits(length_times_unit(x >> 12, y));
     let length = shift(root::root_q16(m, y_q29) as i32, 15 - up - half as i32);
     ([unit(x[0]), unit(x[1]), unit(x[2])], length)
+}
+
+/// How often the vectors of `Arithmetic::fitted` are to be halved, 15 times at most: no ray towards a pixel, or to one beyond the edges,
+/// may have a component of 2³¹.
+#[inline(never)]
+pub(super) fn halvings([forward, right, down]: &[[Aim; 3]; 3], width: u16, height: u16) -> u32 {
+    // In steps of 2¹⁶, rounded up: fourteen bits of pixels fit beside.
+    let steps = |x: Aim| (x.to_bits().unsigned_abs() >> 16).wrapping_add(1);
+    let over = |x: u32, pixels: u16| {
+        let whole = x.wrapping_mul(u32::from(pixels).wrapping_add(2));
+        whole.checked_div(u32::from(height)).unwrap_or(0).wrapping_add(1)
+    };
+    let mut most = 0;
+    for i in 0..3 {
+        let aside = over(steps(right[i]), width);
+        let below = over(steps(down[i]), height);
+        let sum = steps(forward[i]).wrapping_add(aside).wrapping_add(below);
+        most = if sum > most { sum } else { most };
+    }
+    let (_, zeros) = root::normalize(most);
+    17u32.saturating_sub(zeros)
 }
 
 /// See `Arithmetic::rise`: by how much [`align`] shifts the vector to the left.

@@ -313,7 +313,8 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn in_cone(cone: &FixedDirectionCone, d: &[Unit; 3]) -> bool {
-        // Below 2¹³ steps times 2¹⁷, and by Cauchy's inequality so is every part of the sum.
+        // Below 2¹³ steps times 2¹⁷, and by Cauchy's inequality so is every part of the sum: no difference
+        // overflows.
         let p = |i: usize| cone.axis[i].wrapping_mul(d[i].to_bits());
         // A sign is a bit without a branch.
         cone.below_q17.wrapping_sub(p(0).wrapping_add(p(1)).wrapping_add(p(2))) < 0
@@ -555,6 +556,14 @@ impl Arithmetic for Fixed {
     fn aim_over(a: Aim, n: u32) -> Aim {
         let bits = i64::from(a.to_bits()).checked_div(i64::from(n));
         bits.map_or(a, |bits| Aim::from_bits(bits as i32))
+    }
+
+    fn fitted(mut vectors: [[Aim; 3]; 3], width: u16, height: u16) -> [[Aim; 3]; 3] {
+        let halvings = direction::halvings(&vectors, width, height);
+        for aim in vectors.as_flattened_mut() {
+            *aim = Aim::from_bits(aim.to_bits() >> halvings);
+        }
+        vectors
     }
 
     fn rise(v: &[Aim; 3]) -> u8 {

@@ -526,6 +526,10 @@ macro_rules! float {
                 if n == 0 { a } else { a / n as $f }
             }
 
+            fn fitted(vectors: [[$f; 3]; 3], _: u16, _: u16) -> [[$f; 3]; 3] {
+                vectors
+            }
+
             fn rise(_: &[$f; 3]) -> u8 {
                 0
             }
