@@ -188,7 +188,7 @@ pub(crate) fn check(report: &mut Report) {
     for (display, ways) in [(&DISPLAYS[0], &WAYS[..]), (&DISPLAYS[2], &WAYS[..1])] {
         let name = format!("Pico with {}: the image is built, its code in RAM", display.name);
         let built = report.check(&name, || {
-            let image = build(display)?;
+            let image = image_for(display, &[])?;
             let [functions, statics] = elf::in_ram(&image, ArithName::Fixed)?;
             println!("     {functions} functions and {statics} statics");
             Ok(image)
@@ -327,10 +327,6 @@ fn second_stack(image: &Path) -> Result<(), String> {
 
 fn job(scene: SceneName, (width, height): (u16, u16)) -> Job {
     Job { scene, arith: ArithName::Fixed, width, height, sampling: Sampling::Center }
-}
-
-fn build(display: &Display) -> Result<PathBuf, String> {
-    build_with(display, ONE)
 }
 
 fn build_with(display: &Display, more: &str) -> Result<PathBuf, String> {

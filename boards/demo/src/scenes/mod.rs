@@ -65,23 +65,17 @@ pub trait View<A: Arithmetic> {
         if cfg!(target_os = "none") {
             self.view(Shot { scene, camera, depth, output })
         } else {
-            self.view_general(&scene.general(), camera, depth, output)
+            self.view_general(Shot { scene: &scene.general(), camera, depth, output })
         }
     }
 
     /// The same of a scene of whatever type.
     #[inline(never)]
-    fn view_general(
-        self,
-        scene: &Scene<'static, A>,
-        camera: &'static Camera<A>,
-        depth: u8,
-        output: Output,
-    ) -> Self::Output
+    fn view_general(self, shot: Shot<A, &Scene<'static, A>>) -> Self::Output
     where
         Self: Sized,
     {
-        self.view(Shot { scene, camera, depth, output })
+        self.view(shot)
     }
 }
 
